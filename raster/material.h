@@ -1,0 +1,56 @@
+// What a surface is made of, and what lights it: plain data that the pixel program reads.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/vec.h"
+#include "raster/texture.h"
+
+namespace shoal {
+
+enum class AlphaMode : std::uint8_t { kOpaque, kMask, kBlend };
+
+inline constexpr std::int32_t kNoTexture = -1;
+
+struct Material {
+  Vec4f base_color{1, 1, 1, 1};  // linear
+  std::int32_t base_color_texture = kNoTexture;  // index into Materials::textures
+  Sampler base_color_sampler;
+  float metallic = 1, roughness = 1;
+  Vec3f emissive{0, 0, 0};
+  AlphaMode alpha_mode = AlphaMode::kOpaque;
+  float alpha_cutoff = 0.5f;
+  bool double_sided = false;
+  bool unlit = false;
+};
+
+struct Materials {
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+};
+
+struct DirectionalLight {
+  Vec3f direction_world{0, -1, 0};  // unit, the way that the light travels
+  Vec3f irradiance{1, 1, 1};        // linear, on a surface facing it (lux in glTF's terms)
+};
+
+// What every ray sees that leaves the scene, and the ambient light that comes from it.
+struct Background {
+  enum class Kind : std::uint8_t { kColor, kSky } kind = Kind::kColor;
+  Vec3f color{0, 0, 0};  // linear, kColor
+  // kSky: a clear-day gradient between horizon and zenith, ground below, and the sun's disc and glow.
+  Vec3f zenith{0.18f, 0.38f, 0.78f}, horizon{0.72f, 0.83f, 0.94f}, ground{0.35f, 0.33f, 0.30f};
+  Vec3f to_sun_world{0, 1, 0};
+  Vec3f sun{0, 0, 0};  // radiance scale of disc and glow; 0 hides it
+};
+
+struct Lighting {
+  std::vector<DirectionalLight> directional;
+  // Hemispherical ambient irradiance over pi: from above (+up) and from below.
+  Vec3f ambient_up{0, 0, 0}, ambient_down{0, 0, 0};
+  Vec3f up_world{0, 1, 0};
+  Background background;
+};
+
+}  // namespace shoal
