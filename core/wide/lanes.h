@@ -42,10 +42,14 @@ SHOAL_INLINE std::int32_t as_int(float a) { return std::bit_cast<std::int32_t>(a
 SHOAL_INLINE float as_float(std::int32_t a) { return std::bit_cast<float>(a); }
 SHOAL_INLINE float to_float(std::int32_t a) { return static_cast<float>(a); }
 SHOAL_INLINE std::int32_t to_int_trunc(float a) { return static_cast<std::int32_t>(a); }
-SHOAL_INLINE std::int32_t to_int_nearest(float a) { return static_cast<std::int32_t>(std::nearbyint(a)); }
+SHOAL_INLINE std::int32_t to_int_nearest(float a) { return static_cast<std::int32_t>(std::lrintf(a)); }
 SHOAL_INLINE std::int32_t shift_right_logical(std::int32_t a, int n) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) >> n);
 }
+SHOAL_INLINE std::int32_t shift_left(std::int32_t a, std::int32_t n) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) << n);
+}
+SHOAL_INLINE float flip_sign_if(float v, bool m) { return m ? -v : v; }
 SHOAL_INLINE bool any(bool m) { return m; }
 SHOAL_INLINE bool all(bool m) { return m; }
 SHOAL_INLINE bool none(bool m) { return !m; }

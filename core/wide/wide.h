@@ -7,4 +7,19 @@
 #pragma once
 
 #include "core/wide/isa_select.h"
+
+#if defined(SHOAL_ISA_AVX512)
+#include "core/wide/native_avx512.h"
+#include "core/wide/wide_native.h"
+#elif defined(SHOAL_ISA_AVX2)
+#include "core/wide/native_avx2.h"
+#include "core/wide/wide_native.h"
+#elif defined(SHOAL_ISA_SSE42)
+#include "core/wide/native_sse42.h"
+#include "core/wide/wide_native.h"
+#elif defined(SHOAL_ISA_NEON)
+#include "core/wide/native_neon.h"
+#include "core/wide/wide_native.h"
+#else
 #include "core/wide/wide_scalar.h"
+#endif

@@ -49,6 +49,18 @@ SHOAL_INLINE R each(Op op) {
   for (int i = 0; i < 16; ++i) r.lane[i] = op(i);
   return r;
 }
+SHOAL_INLINE std::uint32_t bits(std::int32_t a) { return static_cast<std::uint32_t>(a); }
+SHOAL_INLINE std::int32_t wrap(std::uint32_t a) { return static_cast<std::int32_t>(a); }
+// The fixed tree of reduce_min and reduce_max: lanes 0..7 with 8..15, then 0..3 with 4..7, then 0, 1 with 2, 3, then 0
+// with 1. It decides which zero comes out where zeros of either sign go in.
+template <class T, class Pick>
+SHOAL_INLINE T reduce(const T* lane, Pick pick) {
+  T r[16];
+  std::memcpy(r, lane, 64);
+  for (int n = 8; n > 0; n /= 2)
+    for (int i = 0; i < n; ++i) r[i] = pick(r[i], r[i + n]);
+  return r[0];
+}
 }  // namespace wide_detail
 
 SHOAL_INLINE WideF operator+(WideF a, WideF b) { return wide_detail::each<WideF>([&](int i) { return a.lane[i] + b.lane[i]; }); }
@@ -63,19 +75,29 @@ SHOAL_INLINE WideM operator>=(WideF a, WideF b) { return b <= a; }
 SHOAL_INLINE WideM operator==(WideF a, WideF b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] == b.lane[i]; }); }
 SHOAL_INLINE WideM operator!=(WideF a, WideF b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] != b.lane[i]; }); }
 
-SHOAL_INLINE WideI operator+(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return a.lane[i] + b.lane[i]; }); }
-SHOAL_INLINE WideI operator-(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return a.lane[i] - b.lane[i]; }); }
-SHOAL_INLINE WideI operator*(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return a.lane[i] * b.lane[i]; }); }
+// Integers wrap.
+SHOAL_INLINE WideI operator+(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) + wide_detail::bits(b.lane[i])); }); }
+SHOAL_INLINE WideI operator-(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) - wide_detail::bits(b.lane[i])); }); }
+// The low 32 bits.
+SHOAL_INLINE WideI operator*(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) * wide_detail::bits(b.lane[i])); }); }
 SHOAL_INLINE WideI operator-(WideI a) { return WideI(0) - a; }
 SHOAL_INLINE WideI operator&(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return a.lane[i] & b.lane[i]; }); }
 SHOAL_INLINE WideI operator|(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return a.lane[i] | b.lane[i]; }); }
 SHOAL_INLINE WideI operator^(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return a.lane[i] ^ b.lane[i]; }); }
 SHOAL_INLINE WideI operator~(WideI a) { return a ^ WideI(-1); }
-SHOAL_INLINE WideI operator<<(WideI a, int n) { return wide_detail::each<WideI>([&](int i) { return a.lane[i] << n; }); }
+// Shifts are by 0..31, elsewhere undefined.
+SHOAL_INLINE WideI operator<<(WideI a, int n) { return wide_detail::each<WideI>([&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) << n); }); }
 // Arithmetic shift.
 SHOAL_INLINE WideI operator>>(WideI a, int n) { return wide_detail::each<WideI>([&](int i) { return a.lane[i] >> n; }); }
 SHOAL_INLINE WideI shift_right_logical(WideI a, int n) {
   return wide_detail::each<WideI>([&](int i) { return std::int32_t(std::uint32_t(a.lane[i]) >> n); });
+}
+// Each lane by its own n.
+SHOAL_INLINE WideI shift_left(WideI a, WideI n) {
+  return wide_detail::each<WideI>([&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) << n.lane[i]); });
+}
+SHOAL_INLINE WideI shift_right_logical(WideI a, WideI n) {
+  return wide_detail::each<WideI>([&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) >> n.lane[i]); });
 }
 SHOAL_INLINE WideM operator<(WideI a, WideI b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] < b.lane[i]; }); }
 SHOAL_INLINE WideM operator<=(WideI a, WideI b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] <= b.lane[i]; }); }
@@ -116,27 +138,24 @@ SHOAL_INLINE WideF floor(WideF a) { return wide_detail::each<WideF>([&](int i) {
 SHOAL_INLINE WideI as_int(WideF a) { return std::bit_cast<WideI>(a); }
 SHOAL_INLINE WideF as_float(WideI a) { return std::bit_cast<WideF>(a); }
 SHOAL_INLINE WideF to_float(WideI a) { return wide_detail::each<WideF>([&](int i) { return float(a.lane[i]); }); }
+// v with its sign turned over where m is set (zeros and infinities too).
+SHOAL_INLINE WideF flip_sign_if(WideF v, WideM m) { return select(m, -v, v); }
 // Toward zero. The argument must be within +-2147483520 and no NaN.
 SHOAL_INLINE WideI to_int_trunc(WideF a) { return wide_detail::each<WideI>([&](int i) { return std::int32_t(a.lane[i]); }); }
 // Nearest, ties to even. Same domain. The rounding mode is nearest wherever Shoal runs (core/float_mode.h).
-SHOAL_INLINE WideI to_int_nearest(WideF a) { return wide_detail::each<WideI>([&](int i) { return std::int32_t(std::nearbyint(a.lane[i])); }); }
+SHOAL_INLINE WideI to_int_nearest(WideF a) { return wide_detail::each<WideI>([&](int i) { return std::int32_t(std::lrintf(a.lane[i])); }); }
 
 // lane i of the result is lane index[i] & 15 of v.
 SHOAL_INLINE WideF permute(WideF v, WideI index) { return wide_detail::each<WideF>([&](int i) { return v.lane[index.lane[i] & 15]; }); }
 SHOAL_INLINE WideI permute(WideI v, WideI index) { return wide_detail::each<WideI>([&](int i) { return v.lane[index.lane[i] & 15]; }); }
-// The lanes that m selects, in order, at the front; the rest is unspecified but deterministic garbage of v.
-SHOAL_INLINE WideF compress(WideF v, WideM m) {
-  WideF r = v;
-  for (int i = 0, n = 0; i < 16; ++i)
-    if (m.lane[i]) r.lane[n++] = v.lane[i];
-  return r;
-}
+// The lanes that m selects, in order, at the front; the rest is 0.
 SHOAL_INLINE WideI compress(WideI v, WideM m) {
-  WideI r = v;
+  WideI r(0);
   for (int i = 0, n = 0; i < 16; ++i)
     if (m.lane[i]) r.lane[n++] = v.lane[i];
   return r;
 }
+SHOAL_INLINE WideF compress(WideF v, WideM m) { return as_float(compress(as_int(v), m)); }
 
 SHOAL_INLINE WideF gather(const float* base, WideI index) { return wide_detail::each<WideF>([&](int i) { return base[index.lane[i]]; }); }
 SHOAL_INLINE WideI gather(const std::int32_t* base, WideI index) { return wide_detail::each<WideI>([&](int i) { return base[index.lane[i]]; }); }
@@ -165,16 +184,14 @@ SHOAL_INLINE void store_u8(std::uint8_t* p, WideI v) {
 SHOAL_INLINE void store_masked(float* p, WideF v, WideM m) { select(m, v, WideF::load(p)).store(p); }
 SHOAL_INLINE void store_masked(std::int32_t* p, WideI v, WideM m) { select(m, v, WideI::load(p)).store(p); }
 
-// Order cannot matter for these (no NaN allowed); sums across lanes do not exist on purpose.
-SHOAL_INLINE float reduce_min(WideF v) {
-  float r = v.lane[0];
-  for (int i = 1; i < 16; ++i) r = v.lane[i] < r ? v.lane[i] : r;
-  return r;
+// No NaN allowed. Sums across lanes do not exist on purpose.
+SHOAL_INLINE float reduce_min(WideF v) { return wide_detail::reduce(v.lane, [](float a, float b) { return a < b ? a : b; }); }
+SHOAL_INLINE float reduce_max(WideF v) { return wide_detail::reduce(v.lane, [](float a, float b) { return a > b ? a : b; }); }
+SHOAL_INLINE std::int32_t reduce_min(WideI v) {
+  return wide_detail::reduce(v.lane, [](std::int32_t a, std::int32_t b) { return a < b ? a : b; });
 }
-SHOAL_INLINE float reduce_max(WideF v) {
-  float r = v.lane[0];
-  for (int i = 1; i < 16; ++i) r = v.lane[i] > r ? v.lane[i] : r;
-  return r;
+SHOAL_INLINE std::int32_t reduce_max(WideI v) {
+  return wide_detail::reduce(v.lane, [](std::int32_t a, std::int32_t b) { return a > b ? a : b; });
 }
 SHOAL_INLINE WideI lane_index() { return wide_detail::each<WideI>([](int i) { return i; }); }
 SHOAL_INLINE float extract(WideF v, int i) { return v.lane[i]; }
