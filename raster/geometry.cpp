@@ -1,0 +1,179 @@
+#include "raster/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "raster/geometry_measure.h"
+
+namespace shoal {
+namespace {
+
+std::size_t round_up_16(std::size_t n) { return (n + 15) & ~std::size_t{15}; }
+
+// Greedy cut of a triangle list into chunks, in file order. A vertex's slot holds the number of the chunk that used it
+// last and its place there, so that starting a chunk clears nothing.
+class ChunkCutter {
+ public:
+  explicit ChunkCutter(std::uint32_t vertex_count) : slots_(vertex_count, 0) {}
+
+  // Starts a chunk at triangle `first`; returns its triangle count.
+  //   local    receives chunk-local vertex numbers, three a triangle (kChunkTriangles * 3)
+  //   globals  receives the chunk's vertices in order of first use (kChunkVertices)
+  int cut(const std::uint32_t* indices, std::size_t first, std::size_t triangle_count, std::uint8_t* local,
+          std::uint32_t* globals, int& vertex_count) {
+    ++epoch_;
+    const std::size_t end = std::min(triangle_count, first + std::size_t{kChunkTriangles});
+    int vertices = 0;
+    std::size_t t = first;
+    for (; t < end; ++t) {
+      const std::uint32_t* corner = indices + 3 * t;
+      if (vertices > kChunkVertices - 3 && vertices + count_new(corner) > kChunkVertices) break;
+      for (int k = 0; k < 3; ++k) {
+        std::uint32_t& slot = slots_[corner[k]];
+        if (slot >> kLocalBits != epoch_) {
+          slot = epoch_ << kLocalBits | static_cast<std::uint32_t>(vertices);
+          globals[vertices++] = corner[k];
+        }
+        *local++ = static_cast<std::uint8_t>(slot & (kChunkVertices - 1));
+      }
+    }
+    vertex_count = vertices;
+    if (epoch_ == kLastEpoch) {
+      std::fill(slots_.begin(), slots_.end(), 0u);
+      epoch_ = 0;
+    }
+    return static_cast<int>(t - first);
+  }
+
+ private:
+  static constexpr int kLocalBits = 6;
+  static constexpr std::uint32_t kLastEpoch = 0xFFFFFFFFu >> kLocalBits;
+  static_assert(1 << kLocalBits == kChunkVertices);
+
+  int count_new(const std::uint32_t* corner) const {
+    const auto is_new = [&](int k) { return slots_[corner[k]] >> kLocalBits != epoch_; };
+    int n = is_new(0) ? 1 : 0;
+    if (corner[1] != corner[0] && is_new(1)) ++n;
+    if (corner[2] != corner[0] && corner[2] != corner[1] && is_new(2)) ++n;
+    return n;
+  }
+
+  std::vector<std::uint32_t> slots_;
+  std::uint32_t epoch_ = 0;
+};
+
+void append_vertex(Geometry& g, const MeshView& mesh, std::uint32_t v, bool with_colors) {
+  const Vec3f p = mesh.positions_world[v];
+  g.x_world.push_back(p.x);
+  g.y_world.push_back(p.y);
+  g.z_world.push_back(p.z);
+  g.vertices.push_back({p, mesh.normals_world[v], mesh.uvs ? mesh.uvs[v] : Vec2f{0, 0}});
+  if (with_colors) g.colors.push_back(mesh.colors ? mesh.colors[v] : Vec4f{1, 1, 1, 1});
+}
+
+// The chunk's vertices, padded to sixteen with the last.
+void append_vertices(Geometry& g, const MeshView& mesh, const std::uint32_t* globals, int count, bool with_colors) {
+  const int padded = static_cast<int>(round_up_16(static_cast<std::size_t>(count)));
+  for (int i = 0; i < padded; ++i) append_vertex(g, mesh, globals[std::min(i, count - 1)], with_colors);
+}
+
+// Corner arrays (padded with the degenerate 0, 0, 0), bounds and longest edge of a drawn chunk.
+void append_chunk(Geometry& g, const MeshView& mesh, const std::uint8_t* local, Chunk chunk) {
+  const std::size_t count = chunk.triangle_count, padded = round_up_16(count);
+  const VertexRecord* v = g.vertices.data() + chunk.first_vertex;
+  Vec3f lo = v[0].position_world, hi = lo;
+  for (int i = 1; i < chunk.vertex_count; ++i) {
+    const Vec3f p = v[i].position_world;
+    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+    hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+  }
+  float longest2 = 0;
+  for (std::size_t t = 0; t < padded; ++t) {
+    const bool real = t < count;
+    const std::uint8_t a = real ? local[3 * t] : std::uint8_t{0};
+    const std::uint8_t b = real ? local[3 * t + 1] : std::uint8_t{0};
+    const std::uint8_t c = real ? local[3 * t + 2] : std::uint8_t{0};
+    g.corner0.push_back(a);
+    g.corner1.push_back(b);
+    g.corner2.push_back(c);
+    const Vec3f ab = v[b].position_world - v[a].position_world, bc = v[c].position_world - v[b].position_world;
+    const Vec3f ca = v[a].position_world - v[c].position_world;
+    longest2 = std::max({longest2, dot(ab, ab), dot(bc, bc), dot(ca, ca)});
+  }
+  chunk.material = mesh.material;
+  chunk.bounds_min_world = lo;
+  chunk.bounds_max_world = hi;
+  chunk.longest_edge_m = std::sqrt(longest2);
+  g.chunks.push_back(chunk);
+}
+
+}  // namespace
+
+void measure_mesh(const MeshView& mesh, GeometrySize& size) {
+  ChunkCutter cutter(mesh.vertex_count);
+  std::uint8_t local[kChunkTriangles * 3];
+  std::uint32_t globals[kChunkVertices];
+  const std::size_t count = mesh.index_count / 3;
+  for (std::size_t first = 0; first < count;) {
+    int vertices = 0;
+    const int triangles = cutter.cut(mesh.indices, first, count, local, globals, vertices);
+    size.vertices += round_up_16(static_cast<std::size_t>(vertices));
+    if (mesh.drawn) {
+      size.corners += round_up_16(static_cast<std::size_t>(triangles));
+      ++size.chunks;
+    }
+    first += static_cast<std::size_t>(triangles);
+  }
+  size.triangles += count;
+  ++size.drawables;
+}
+
+void reserve_geometry(Geometry& g, const GeometrySize& size, bool with_colors) {
+  const std::size_t vertices = g.vertices.size() + size.vertices, corners = g.corner0.size() + size.corners;
+  g.x_world.reserve(vertices);
+  g.y_world.reserve(vertices);
+  g.z_world.reserve(vertices);
+  g.vertices.reserve(vertices);
+  if (with_colors) g.colors.reserve(vertices);
+  g.corner0.reserve(corners);
+  g.corner1.reserve(corners);
+  g.corner2.reserve(corners);
+  g.triangles.reserve(g.triangles.size() + size.triangles);
+  g.chunks.reserve(g.chunks.size() + size.chunks);
+  g.drawables.reserve(g.drawables.size() + size.drawables);
+}
+
+void append_mesh(Geometry& g, const MeshView& mesh) {
+  const std::size_t count = mesh.index_count / 3;
+  const auto first_id = static_cast<std::uint32_t>(g.triangles.size());
+  g.drawables.push_back({mesh.node, mesh.primitive, mesh.material, first_id, static_cast<std::uint32_t>(count),
+                         mesh.drawn});
+  // The first mesh with colours whitens the vertices before it.
+  if (mesh.colors && g.colors.empty()) g.colors.resize(g.vertices.size(), Vec4f{1, 1, 1, 1});
+  const bool with_colors = mesh.colors || !g.colors.empty();
+
+  ChunkCutter cutter(mesh.vertex_count);
+  std::uint8_t local[kChunkTriangles * 3];
+  std::uint32_t globals[kChunkVertices];
+  for (std::size_t first = 0; first < count;) {
+    int vertices = 0;
+    const int triangles = cutter.cut(mesh.indices, first, count, local, globals, vertices);
+    Chunk chunk;
+    chunk.first_triangle = first_id + static_cast<std::uint32_t>(first);
+    chunk.first_vertex = static_cast<std::uint32_t>(g.vertices.size());
+    chunk.first_index = static_cast<std::uint32_t>(g.corner0.size());
+    chunk.triangle_count = static_cast<std::uint16_t>(triangles);
+    chunk.vertex_count = static_cast<std::uint16_t>(vertices);
+    append_vertices(g, mesh, globals, vertices, with_colors);
+    for (int t = 0; t < triangles; ++t) {
+      const std::uint8_t* l = local + 3 * t;
+      g.triangles.push_back(
+          {{chunk.first_vertex + l[0], chunk.first_vertex + l[1], chunk.first_vertex + l[2]}, mesh.material});
+    }
+    // What is not drawn keeps ids and vertices, but has no chunk that a stage could see.
+    if (mesh.drawn) append_chunk(g, mesh, local, chunk);
+    first += static_cast<std::size_t>(triangles);
+  }
+}
+
+}  // namespace shoal

@@ -1,0 +1,20 @@
+// How much a mesh takes once chunked, so that a builder can reserve exactly (raster/geometry.cpp).
+#pragma once
+
+#include <cstddef>
+
+#include "raster/geometry.h"
+
+namespace shoal {
+
+struct GeometrySize {
+  std::size_t vertices = 0, corners = 0, triangles = 0, chunks = 0, drawables = 0;
+};
+
+// Adds what append_mesh(geometry, mesh) would append. Reads indices, vertex_count, index_count and drawn only.
+void measure_mesh(const MeshView& mesh, GeometrySize& size);
+
+// Reserves room for `size` more in every array; the colours' too when `with_colors`.
+void reserve_geometry(Geometry& geometry, const GeometrySize& size, bool with_colors);
+
+}  // namespace shoal

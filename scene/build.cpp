@@ -1,0 +1,354 @@
+// Scene to RenderScene: world space, chunks, water outlines, placed cameras, light.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+#include "core/math.h"
+#include "raster/geometry_measure.h"
+#include "scene/scene.h"
+
+namespace shoal {
+namespace {
+
+constexpr float kDefaultDepth_m = 1.0f;       // of a body that has nothing below it
+constexpr float kPlanarTolerance = 1e-4f;     // of the outline's extent
+constexpr float kDefaultOrthographicFar_m = 1000.0f;
+
+[[noreturn]] void fail(const Scene& scene, const Node& node, const std::string& what) {
+  throw Error(scene.name + ": node '" + node.name + "': " + what);
+}
+
+bool is_finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// Unit vector, or zero where there is no direction. Scaled by the largest component first: squares neither overflow nor
+// vanish.
+Vec3f normalize_or_zero(Vec3f v) {
+  const float largest = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+  if (!(largest > 0) || !std::isfinite(largest)) return {0, 0, 0};
+  const Vec3f s = v / largest;
+  return s / std::sqrt(dot(s, s));
+}
+bool is_zero(Vec3f v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
+Vec3f column(const Mat4& t, int c) { return {t.m[0][c], t.m[1][c], t.m[2][c]}; }
+
+float determinant(const Mat4& t) { return dot(column(t, 0), cross(column(t, 1), column(t, 2))); }
+
+// The inverse transpose up to a positive factor: the matrix of cofactors, times the determinant's sign.
+struct NormalMatrix {
+  Vec3f columns[3];
+
+  explicit NormalMatrix(const Mat4& t) {
+    const Vec3f a = normalize_scale(t, 0), b = normalize_scale(t, 1), c = normalize_scale(t, 2);
+    const float sign = determinant(t) < 0 ? -1.0f : 1.0f;
+    columns[0] = cross(b, c) * sign;
+    columns[1] = cross(c, a) * sign;
+    columns[2] = cross(a, b) * sign;
+  }
+  Vec3f apply(Vec3f n) const {
+    const Vec3f w = normalize_or_zero(columns[0] * n.x + columns[1] * n.y + columns[2] * n.z);
+    return is_zero(w) ? Vec3f{0, 1, 0} : w;
+  }
+
+ private:
+  // One common factor for all columns keeps the products of tiny or huge scales in range.
+  static Vec3f normalize_scale(const Mat4& t, int c) {
+    float largest = 0;
+    for (int row = 0; row < 3; ++row) {
+      for (int col = 0; col < 3; ++col) largest = std::max(largest, std::fabs(t.m[row][col]));
+    }
+    return largest > 0 ? column(t, c) / largest : Vec3f{0, 0, 0};
+  }
+};
+
+bool is_outline(const Scene& scene, const Node& node) {
+  return node.water != kNone && !scene.waters[static_cast<std::size_t>(node.water)].has_size;
+}
+
+const Mesh* mesh_of(const Scene& scene, const Node& node) {
+  return node.mesh == kNone ? nullptr : &scene.meshes[static_cast<std::size_t>(node.mesh)];
+}
+
+// --- Geometry -------------------------------------------------------------------------------------------------------
+
+MeshView view_of(const MeshPrimitive& p, std::size_t node, std::size_t primitive, bool drawn) {
+  MeshView view;
+  view.uvs = p.uvs.empty() ? nullptr : p.uvs.data();
+  view.colors = p.colors.empty() ? nullptr : p.colors.data();
+  view.indices = p.indices.data();
+  view.vertex_count = static_cast<std::uint32_t>(p.positions.size());
+  view.index_count = static_cast<std::uint32_t>(p.indices.size());
+  view.node = static_cast<std::uint32_t>(node);
+  view.primitive = static_cast<std::uint32_t>(primitive);
+  view.material = static_cast<std::uint32_t>(p.material);
+  view.drawn = drawn;
+  return view;
+}
+
+template <class Fn>
+void for_each_primitive(const Scene& scene, Fn&& fn) {
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+    const Mesh* mesh = mesh_of(scene, scene.nodes[n]);
+    if (!mesh) continue;
+    const bool drawn = !is_outline(scene, scene.nodes[n]);
+    for (std::size_t p = 0; p < mesh->primitives.size(); ++p) {
+      fn(scene.nodes[n], mesh->primitives[p], view_of(mesh->primitives[p], n, p, drawn));
+    }
+  }
+}
+
+Geometry bake_geometry(const Scene& scene) {
+  GeometrySize size;
+  bool with_colors = false;
+  for_each_primitive(scene, [&](const Node&, const MeshPrimitive&, const MeshView& view) {
+    measure_mesh(view, size);
+    with_colors |= view.colors != nullptr;
+  });
+  if (size.triangles >= kNoTriangle) throw Error(scene.name + ": too many triangles; expected fewer than 4294967295");
+
+  Geometry geometry;
+  reserve_geometry(geometry, size, with_colors);
+  std::vector<Vec3f> positions, normals;
+  std::vector<std::uint32_t> flipped;
+  for_each_primitive(scene, [&](const Node& node, const MeshPrimitive& p, MeshView view) {
+    const NormalMatrix normal_matrix(node.world_from_local);
+    positions.resize(p.positions.size());
+    normals.resize(p.positions.size());
+    for (std::size_t i = 0; i < p.positions.size(); ++i) {
+      positions[i] = transform_point(node.world_from_local, p.positions[i]);
+      normals[i] = normal_matrix.apply(p.normals[i]);
+      if (!is_finite(positions[i])) fail(scene, node, "a vertex is not finite in world space; expected finite positions");
+    }
+    view.positions_world = positions.data();
+    view.normals_world = normals.data();
+    if (determinant(node.world_from_local) < 0) {  // a mirror image turns front faces to back
+      flipped = p.indices;
+      for (std::size_t i = 0; i + 2 < flipped.size(); i += 3) std::swap(flipped[i + 1], flipped[i + 2]);
+      view.indices = flipped.data();
+    }
+    append_mesh(geometry, view);
+  });
+  return geometry;
+}
+
+void find_bounds(const Geometry& g, Vec3f& lo, Vec3f& hi) {
+  lo = hi = {0, 0, 0};
+  if (g.vertices.empty()) return;
+  lo = hi = g.vertices[0].position_world;
+  for (const VertexRecord& v : g.vertices) {
+    const Vec3f p = v.position_world;
+    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+    hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+  }
+}
+
+// --- Water ----------------------------------------------------------------------------------------------------------
+
+// Appends a triangle of the outline, counter-clockwise seen from +normal; drops one without area.
+void add_outline_triangle(WaterBody& body, Vec3f a, Vec3f b, Vec3f c) {
+  const float area2 = dot(cross(b - a, c - a), body.normal);
+  if (area2 == 0) return;
+  if (area2 < 0) std::swap(b, c);
+  body.outline.insert(body.outline.end(), {a, b, c});
+}
+
+void outline_from_size(WaterBody& body, const Mat4& world_from_local, float size_x, float size_z) {
+  const float x = size_x * 0.5f, z = size_z * 0.5f;
+  const auto corner = [&](float sx, float sz) { return transform_point(world_from_local, Vec3f{sx, 0, sz}); };
+  const Vec3f a = corner(-x, -z), b = corner(-x, z), c = corner(x, z), d = corner(x, -z);
+  add_outline_triangle(body, a, b, c);
+  add_outline_triangle(body, a, c, d);
+}
+
+void outline_from_mesh(const Scene& scene, const Node& node, WaterBody& body) {
+  const Mesh* mesh = mesh_of(scene, node);
+  if (!mesh) fail(scene, node, "water has neither a size nor a mesh; expected one of them as its outline");
+  float extent = 0, off_plane = 0;
+  for (const MeshPrimitive& p : mesh->primitives) {
+    for (const Vec3f& v : p.positions) {
+      extent = std::max({extent, std::fabs(v.x), std::fabs(v.z)});
+      off_plane = std::max(off_plane, std::fabs(v.y));
+    }
+  }
+  if (off_plane > kPlanarTolerance * extent) {
+    fail(scene, node, "the water's mesh is not planar; expected all of its vertices at local y = 0");
+  }
+  for (const MeshPrimitive& p : mesh->primitives) {
+    for (std::size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+      Vec3f corner[3];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3f v = p.positions[p.indices[i + k]];
+        corner[k] = transform_point(node.world_from_local, Vec3f{v.x, 0, v.z});
+      }
+      add_outline_triangle(body, corner[0], corner[1], corner[2]);
+    }
+  }
+}
+
+float depth_to_bottom(const Geometry& geometry, const WaterBody& body) {
+  float depth = 0;
+  for (const VertexRecord& v : geometry.vertices) {
+    depth = std::max(depth, dot(body.origin - v.position_world, body.normal));
+  }
+  return depth > 0 ? depth : kDefaultDepth_m;
+}
+
+WaterBody place_water(const Scene& scene, std::size_t node_index, const Geometry& geometry) {
+  const Node& node = scene.nodes[node_index];
+  const WaterSpec& spec = scene.waters[static_cast<std::size_t>(node.water)];
+  const Mat4& t = node.world_from_local;
+  WaterBody body;
+  body.name = node.name;
+  body.node = static_cast<std::uint32_t>(node_index);
+  body.origin = column(t, 3);
+  body.axis_x = normalize_or_zero(column(t, 0));
+  const Vec3f to_z = normalize_or_zero(column(t, 2)), to_y = normalize_or_zero(column(t, 1));
+  // The plane is spanned by the local x and z axes; its normal is on the side of local +y, shear or mirror or not.
+  body.normal = normalize_or_zero(cross(to_z, body.axis_x));
+  if (is_zero(body.normal) || is_zero(to_y) || dot(body.normal, to_y) == 0 || !is_finite(body.origin)) {
+    fail(scene, node, "the water's transform is degenerate; expected three independent axes");
+  }
+  if (dot(body.normal, to_y) < 0) body.normal = -body.normal;
+  body.axis_z = cross(body.axis_x, body.normal);
+  body.ior = spec.ior;
+  body.absorption_per_m = spec.absorption;
+  body.surface = spec.surface;
+
+  if (!(spec.ior >= 1.0f / 3.0f && spec.ior <= 3.0f)) fail(scene, node, "water ior is out of range; expected 1/3 to 3");
+  if (spec.has_size) {
+    if (!(spec.size_x > 0 && spec.size_z > 0)) fail(scene, node, "water size is not positive; expected [x, z] in metres");
+    outline_from_size(body, t, spec.size_x, spec.size_z);
+  } else {
+    outline_from_mesh(scene, node, body);
+  }
+  if (body.outline.empty()) fail(scene, node, "the water's outline has no area; expected at least one triangle");
+
+  if (spec.has_depth) {
+    body.depth_m = std::fabs(dot(transform_direction(t, Vec3f{0, spec.depth, 0}), body.normal));
+    if (!(body.depth_m > 0) || !std::isfinite(body.depth_m)) {
+      fail(scene, node, "water depth is not positive; expected metres below the plane");
+    }
+  } else {
+    body.depth_m = depth_to_bottom(geometry, body);
+  }
+  return body;
+}
+
+// --- Cameras --------------------------------------------------------------------------------------------------------
+
+// Completes an orthonormal frame that looks along `forward`, its up as near to `up` as can be.
+bool aim(Camera& camera, Vec3f forward, Vec3f up) {
+  camera.forward_world = normalize_or_zero(forward);
+  camera.right_world = normalize_or_zero(cross(camera.forward_world, normalize_or_zero(up)));
+  camera.up_world = cross(camera.right_world, camera.forward_world);
+  return !is_zero(camera.forward_world) && !is_zero(camera.right_world);
+}
+
+PlacedCamera place_camera(const Scene& scene, std::size_t node_index) {
+  const Node& node = scene.nodes[node_index];
+  const CameraSpec& spec = scene.cameras[static_cast<std::size_t>(node.camera)];
+  PlacedCamera placed;
+  placed.name = node.name;
+  placed.node = static_cast<std::uint32_t>(node_index);
+  Camera& camera = placed.camera;
+  camera.position_world = column(node.world_from_local, 3);
+  if (!aim(camera, -column(node.world_from_local, 2), column(node.world_from_local, 1)) ||
+      !is_finite(camera.position_world)) {
+    fail(scene, node, "the camera's transform is degenerate; expected independent axes");
+  }
+  camera.orthographic = spec.orthographic;
+  camera.tan_half_yfov = det_tan(spec.yfov * 0.5f);
+  camera.xmag_m = spec.xmag;
+  camera.ymag_m = spec.ymag;
+  camera.near_m = spec.znear;
+  camera.far_m = spec.zfar > 0 ? spec.zfar : kDefaultOrthographicFar_m;
+  return placed;
+}
+
+// The whole scene in a three-quarter view, its bounding sphere inside a square frame of 45 degrees.
+PlacedCamera framing_camera(Vec3f lo, Vec3f hi) {
+  constexpr float kTanHalf = 0.41421356f, kSinHalf = 0.38268343f;  // of 22.5 degrees
+  const Vec3f centre = (lo + hi) * 0.5f, half = (hi - lo) * 0.5f;
+  const float length = std::sqrt(dot(half, half));
+  const float radius = length > 0 && std::isfinite(length) ? length : 1.0f;
+  const Vec3f from_centre = normalize_or_zero({0.6f, 0.55f, 1.0f});
+  PlacedCamera placed;
+  placed.name = "default";
+  placed.camera.position_world = centre + from_centre * (radius / kSinHalf);
+  aim(placed.camera, -from_centre, {0, 1, 0});
+  placed.camera.tan_half_yfov = kTanHalf;
+  placed.camera.near_m = radius * 0.01f;
+  return placed;
+}
+
+// --- Light ----------------------------------------------------------------------------------------------------------
+
+constexpr Vec3f kDefaultToSun{0.40824829f, 0.81649658f, 0.40824829f};
+constexpr Vec3f kDefaultSunIrradiance{2.6f, 2.45f, 2.2f};
+
+bool is_lit(const Scene& scene) {
+  for (const Node& node : scene.nodes) {
+    const Mesh* mesh = mesh_of(scene, node);
+    if (!mesh || is_outline(scene, node)) continue;
+    for (const MeshPrimitive& p : mesh->primitives) {
+      if (!scene.materials.materials[static_cast<std::size_t>(p.material)].unlit) return true;
+    }
+  }
+  return false;
+}
+
+// Mean radiance of a half of the background, weighted by the cosine to the vertical: irradiance over pi. The sky's
+// ramp from horizon to zenith is fitted: 0.45 of the one and 0.55 of the other.
+void ambient_from_background(Lighting& lighting) {
+  const Background& b = lighting.background;
+  if (b.kind == Background::Kind::kColor) {
+    lighting.ambient_up = lighting.ambient_down = b.color;
+  } else {
+    lighting.ambient_up = b.horizon * 0.45f + b.zenith * 0.55f;
+    lighting.ambient_down = b.ground;
+  }
+}
+
+Lighting make_lighting(const Scene& scene) {
+  Lighting lighting;
+  const bool lit = is_lit(scene);
+  for (const Node& node : scene.nodes) {
+    if (node.light == kNone) continue;
+    const LightSpec& spec = scene.lights[static_cast<std::size_t>(node.light)];
+    const Vec3f direction = normalize_or_zero(-column(node.world_from_local, 2));
+    if (is_zero(direction)) fail(scene, node, "the light's transform is degenerate; expected a direction");
+    lighting.directional.push_back({direction, spec.color * spec.intensity});
+  }
+  if (lit && lighting.directional.empty()) lighting.directional.push_back({-kDefaultToSun, kDefaultSunIrradiance});
+
+  if (scene.has_background) {
+    lighting.background = scene.background;
+  } else if (lit) {
+    const DirectionalLight& sun = lighting.directional[0];
+    lighting.background.kind = Background::Kind::kSky;
+    lighting.background.to_sun_world = -sun.direction_world;
+    lighting.background.sun = sun.irradiance;
+  }
+  if (lit) ambient_from_background(lighting);
+  return lighting;
+}
+
+}  // namespace
+
+RenderScene build_render_scene(const Scene& scene) {
+  RenderScene out;
+  out.geometry = bake_geometry(scene);
+  out.materials = scene.materials;
+  out.lighting = make_lighting(scene);
+  find_bounds(out.geometry, out.bounds_min_world, out.bounds_max_world);
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+    out.node_names.push_back(scene.nodes[n].name);
+    if (scene.nodes[n].water != kNone) out.waters.push_back(place_water(scene, n, out.geometry));
+    if (scene.nodes[n].camera != kNone) out.cameras.push_back(place_camera(scene, n));
+  }
+  if (out.cameras.empty()) out.cameras.push_back(framing_camera(out.bounds_min_world, out.bounds_max_world));
+  return out;
+}
+
+}  // namespace shoal
