@@ -1,6 +1,16 @@
 # Compile flags of every Shoal target. They are part of the determinism contract (docs/DETERMINISM.md).
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release or Debug" FORCE)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+
+find_package(Threads REQUIRED)
+
 add_library(shoal_flags INTERFACE)
 target_compile_features(shoal_flags INTERFACE cxx_std_20)
+target_compile_definitions(shoal_flags INTERFACE SHOAL_VERSION="${PROJECT_VERSION}")
 target_compile_options(shoal_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion
   # No fused multiply-add anywhere: GCC 12 fuses even written-out intrinsics by default.
@@ -8,10 +18,27 @@ target_compile_options(shoal_flags INTERFACE
   # Signed overflow never reaches a pixel, but must not become undefined behaviour either.
   -fwrapv
   # These two change no result; they let sqrt and selects become plain instructions.
-  -fno-math-errno -fno-trapping-math)
+  -fno-math-errno -fno-trapping-math
+  ${SHOAL_OPTIMIZE})
 target_include_directories(shoal_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_link_libraries(shoal_flags INTERFACE Threads::Threads)
+if(SHOAL_WERROR)
+  target_compile_options(shoal_flags INTERFACE -Werror)
+endif()
 
 if(SHOAL_SANITIZE)
   target_compile_options(shoal_flags INTERFACE -fsanitize=${SHOAL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(shoal_flags INTERFACE -fsanitize=${SHOAL_SANITIZE})
+endif()
+
+# Headers of the host that a cross-compiler may see: header-only libraries, one symbolic link each, nothing else of
+# /usr/include.
+if(CMAKE_CROSSCOMPILING)
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/host_headers)
+  foreach(header xxhash.h xxh3.h catch2)
+    if(EXISTS /usr/include/${header})
+      file(CREATE_LINK /usr/include/${header} ${PROJECT_BINARY_DIR}/host_headers/${header} SYMBOLIC)
+    endif()
+  endforeach()
+  target_include_directories(shoal_flags SYSTEM INTERFACE ${PROJECT_BINARY_DIR}/host_headers)
 endif()
