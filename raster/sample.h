@@ -1,0 +1,189 @@
+// Sampling a texture: level of detail, wrapping, filtering. One texture and one sampler for all lanes of a call.
+//
+// Texel coordinates and weights are fixed-point, 15 bits of fraction, from one multiplication; filtering is integer for
+// the 8-bit formats (raster/texel_filter.h) and float for float textures. A lane's result never depends on the others'.
+#pragma once
+
+#include "core/vec_lanes.h"
+#include "raster/texel_filter.h"
+#include "raster/texture.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+namespace sample_detail {
+
+inline constexpr int kFractionBits = 15;
+inline constexpr std::int32_t kOne = 1 << kFractionBits;
+inline constexpr std::int32_t kHalf = kOne / 2;
+
+SHOAL_INLINE std::int32_t entry(const std::int32_t* table, std::int32_t i) { return table[i & 15]; }
+SHOAL_INLINE WideI entry(const std::int32_t* table, WideI i) { return permute(WideI::load(table), i); }
+
+// log2(x) in units of 2^-15, truncated. x: finite, normal, at least 1. Exponent by bits; with t = mantissa - 1,
+// log2(1 + t) = t + t (1 - t) q(t), so that powers of two are exact. Error: 1.2e-4 + 2^-15 (test_texture.cpp, "level of
+// detail"). The minimax q is our own fit.
+template <class F>
+SHOAL_INLINE IntOf<F> log2_fixed(F x) {
+  using I = IntOf<F>;
+  const I bits = as_int(x);
+  const I exponent = shift_right_logical(bits, 23) - I(127);
+  const F t = as_float((bits & I(0x007FFFFF)) | I(0x3F800000)) - F(1.0f);
+  const F q = (F(0.08213072f) * t + F(-0.23905827f)) * t + F(0.43872575f);
+  const F fraction = t + t * (F(1.0f) - t) * q;
+  return (exponent << kFractionBits) + to_int_trunc(fraction * F(static_cast<float>(kOne)));
+}
+
+// A texture coordinate folded into [0, 1): one period for repeat, the mirrored half period, or the clamped value. Exact
+// but for the last bit. NaN and, where the mode has no limit there, infinity give 0.
+template <class F>
+SHOAL_INLINE F fold(F u, Wrap wrap) {
+  constexpr float kBelowOne = 0x1.fffffep-1f;
+  F folded = u;
+  if (wrap == Wrap::kRepeat) {
+    folded = u - floor(u);
+  } else if (wrap == Wrap::kMirror) {
+    const F half = u * F(0.5f);
+    const F period = half - floor(half);
+    folded = F(1.0f) - abs(F(1.0f) - (period + period));
+  }
+  return min(max(folded, F(0.0f)), F(kBelowOne));
+}
+
+// The first of the two texels along one axis and the second one's weight.
+template <class F>
+struct AxisTap {
+  IntOf<F> texel, weight;
+};
+
+//   folded       [0, 1)
+//   size         texels
+//   half         kHalf where the filter is linear, 0 where it is nearest
+//   weight_mask  kOne - 1 where linear, 0 where nearest
+template <class F>
+SHOAL_INLINE AxisTap<F> axis_tap(F folded, IntOf<F> size, Wrap wrap, IntOf<F> half, IntOf<F> weight_mask) {
+  using I = IntOf<F>;
+  // folded < 1 keeps the product below size * kOne after rounding too: no texel past the end.
+  I x = to_int_trunc(folded * to_float(size << kFractionBits)) - half;
+  if (wrap == Wrap::kRepeat) {
+    const I texel = x >> kFractionBits;
+    return {select(texel < I(0), texel + size, texel), x & weight_mask};
+  }
+  // Beyond the outer texel centres both neighbours are the edge texel: stop at the centre. A mirrored coordinate too.
+  x = min(max(x, I(0)), (size - I(1)) << kFractionBits);
+  return {x >> kFractionBits, x & weight_mask};
+}
+
+// Where the four texels of a bilinear tap are, and their weights.
+template <class F>
+struct Tap {
+  IntOf<F> index, row;  // texel numbers of the upper and the lower left texel
+  IntOf<F> wx, wy;
+};
+
+// What is one for all levels of a lane.
+template <class F>
+struct Footprint {
+  Vec2<F> folded;
+  IntOf<F> half, weight_mask;  // see axis_tap
+};
+
+template <class F>
+SHOAL_INLINE Tap<F> make_tap(const Texture& texture, const Sampler& sampler, const Footprint<F>& at, IntOf<F> level) {
+  using I = IntOf<F>;
+  const I width = entry(texture.width, level), height = entry(texture.height, level);
+  const AxisTap<F> x = axis_tap(at.folded.x, width, sampler.wrap_u, at.half, at.weight_mask);
+  const AxisTap<F> y = axis_tap(at.folded.y, height, sampler.wrap_v, at.half, at.weight_mask);
+  const I stride = width + I(1);
+  const I index = entry(texture.first_texel, level) + y.texel * stride + x.texel;
+  return {index, index + stride, x.weight, y.weight};
+}
+
+// Float textures: the same taps, weights as floats; a rare format, so four gathers a texel will do.
+SHOAL_INLINE float fetch(const float* base, std::int32_t i) { return base[i]; }
+SHOAL_INLINE WideF fetch(const float* base, WideI i) { return gather(base, i); }
+template <class F>
+SHOAL_INLINE F bilinear_channel(const float* base, IntOf<F> top, IntOf<F> bottom, F wx, F wy) {
+  const F a = fetch(base, top), b = fetch(base + 4, top);
+  const F c = fetch(base, bottom), d = fetch(base + 4, bottom);
+  const F left = a + (c - a) * wy, right = b + (d - b) * wy;
+  return left + (right - left) * wx;
+}
+template <class F>
+SHOAL_INLINE Vec4<F> bilinear_float(const Texture& texture, const Tap<F>& tap) {
+  const IntOf<F> top = tap.index << 2, bottom = tap.row << 2;
+  const F scale(1.0f / static_cast<float>(kOne));
+  const F wx = to_float(tap.wx) * scale, wy = to_float(tap.wy) * scale;
+  const float* base = texture.rgba32f.data();
+  return {bilinear_channel<F>(base, top, bottom, wx, wy), bilinear_channel<F>(base + 1, top, bottom, wx, wy),
+          bilinear_channel<F>(base + 2, top, bottom, wx, wy), bilinear_channel<F>(base + 3, top, bottom, wx, wy)};
+}
+
+}  // namespace sample_detail
+
+// The level of detail of one pixel, before clamping to the levels that there are.
+//   duv_dx, duv_dy  what uv changes by over one pixel
+// Returns log2 of the longer of the two in texels of level 0, as fixed point with 15 bits of fraction, from 0 (magnified,
+// or not a number) to 14.
+// Source: Vulkan 1.3, 16.5.7 (scale factor rho_max, no anisotropy). Error: 1e-4 levels (test_texture.cpp).
+template <class F>
+SHOAL_INLINE IntOf<F> level_of_detail(const Texture& texture, Vec2<F> duv_dx, Vec2<F> duv_dy) {
+  const F width(static_cast<float>(texture.width[0])), height(static_cast<float>(texture.height[0]));
+  const F ux = duv_dx.x * width, vx = duv_dx.y * height, uy = duv_dy.x * width, vy = duv_dy.y * height;
+  const F x2 = ux * ux + vx * vx, y2 = uy * uy + vy * vy;
+  // max(a, 1) is 1 where a is NaN.
+  const F rho2 = min(max(max(x2, F(1.0f)), max(y2, F(1.0f))), F(0x1p28f));
+  return shift_right_logical(sample_detail::log2_fixed<F>(rho2), 1);
+}
+
+// Samples `texture` at `uv`: linear light, alpha as stored.
+//   uv              any value; (0, 0) is the corner of the first texel, v goes down the rows
+//   duv_dx, duv_dy  derivatives of uv over one pixel
+//   active          lanes that are wanted; the others read only valid texels too and return anything finite
+// Returns R, G, B, A, in [0, 1] for the 8-bit formats. uv that is NaN or infinite is taken as some valid texel.
+// Source: Vulkan 1.3, 16.5 to 16.9 (image operations). Differs: nearest mip is floor(lod + 1/2); weights have 15 bits.
+// Error: against double precision on the stored texels 4 / 32767, plus the rounding of uv: 2^-24 of the texture's size
+// in texels, times the difference of neighbours (test_texture.cpp, "filtering").
+template <class F>
+SHOAL_INLINE Vec4<F> sample(const Texture& texture, const Sampler& sampler, Vec2<F> uv, Vec2<F> duv_dx, Vec2<F> duv_dy,
+                            MaskOf<F> active) {
+  using namespace sample_detail;
+  using I = IntOf<F>;
+  const auto filter_half = [](Filter f) { return f == Filter::kLinear ? kHalf : 0; };
+  Footprint<F> at;
+  at.folded = {fold(uv.x, sampler.wrap_u), fold(uv.y, sampler.wrap_v)};
+  at.half = I(filter_half(sampler.magnify));
+
+  // Level and its fraction; magnified lanes have level 0 and fraction 0.
+  I level(0), fraction(0);
+  if (texture.level_count > 1 || sampler.magnify != sampler.minify) {
+    const I lod = level_of_detail<F>(texture, duv_dx, duv_dy);
+    if (sampler.magnify != sampler.minify) at.half = select(lod > I(0), I(filter_half(sampler.minify)), at.half);
+    const I last((texture.level_count - 1) << kFractionBits);
+    if (sampler.mip == MipFilter::kLinear) {
+      const I clamped = min(lod, last);
+      level = clamped >> kFractionBits;
+      fraction = clamped & I(kOne - 1);
+    } else if (sampler.mip == MipFilter::kNearest) {
+      level = min(lod + I(kHalf), last) >> kFractionBits;
+    }
+  }
+  at.weight_mask = (at.half << 1) - select(at.half > I(0), I(1), I(0));
+
+  const bool two_levels = any((fraction != I(0)) & active);
+  const Tap<F> tap = make_tap<F>(texture, sampler, at, level);
+  if (texture.format == TexelFormat::kRgba32Float) {
+    const Vec4<F> a = bilinear_float<F>(texture, tap);
+    if (!two_levels) return a;
+    const Vec4<F> b = bilinear_float<F>(texture, make_tap<F>(texture, sampler, at, level + I(1)));
+    const F t = to_float(fraction) * F(1.0f / static_cast<float>(kOne));
+    return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, a.w + (b.w - a.w) * t};
+  }
+  const std::uint64_t* texels = texture.rgba15.data();
+  const auto a = bilinear_texels(texels, tap.index, tap.row, tap.wx, tap.wy);
+  if (!two_levels) return texels_to_float(a);
+  const Tap<F> next = make_tap<F>(texture, sampler, at, level + I(1));
+  const auto b = bilinear_texels(texels, next.index, next.row, next.wx, next.wy);
+  return texels_to_float(lerp_texels(a, b, fraction));
+}
+
+}  // namespace shoal::inline SHOAL_ISA_NS

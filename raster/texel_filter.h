@@ -1,0 +1,244 @@
+// Bilinear and mip filtering of 15-bit RGBA texels by 16-bit integers, one pixel (int32) or sixteen (WideI) at a time.
+//
+// One step is lerp(a, b, w) = a + ((b - a) * w + 2^14 >> 15): texels 0 to 32767, weight w 0 to 32767 of 32768. It is exact
+// where a = b or w = 0, never leaves [a, b], and is one instruction for the product on every machine (x86 pmulhrsw, NEON
+// sqrdmulh). This file is where raster meets instruction sets: the wide type has no lanes of sixteen bits.
+// Error: a filtered value is within 3.5 / 32767 of exact weights on exact texels for three steps (half a unit of storage,
+// half a unit each step, and up to one weight unit, 2^-15 of the difference, where weights are truncated; pinned by
+// tests/raster/test_texture.cpp).
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#include "core/vec.h"
+#include "core/wide/lanes.h"
+#include "raster/srgb.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+// --- One pixel ---
+
+struct Texel {
+  std::int32_t channel[4];
+};
+
+namespace texel_detail {
+SHOAL_INLINE std::int32_t lerp15(std::int32_t a, std::int32_t b, std::int32_t w) {
+  return a + (((b - a) * w + 0x4000) >> 15);
+}
+SHOAL_INLINE std::int32_t channel15(std::uint64_t texel, int c) {
+  return static_cast<std::int32_t>((texel >> (16 * c)) & 0xFFFFu);
+}
+}  // namespace texel_detail
+
+SHOAL_INLINE Texel lerp_texels(const Texel& a, const Texel& b, std::int32_t w) {
+  Texel r;
+  for (int c = 0; c < 4; ++c) r.channel[c] = texel_detail::lerp15(a.channel[c], b.channel[c], w);
+  return r;
+}
+SHOAL_INLINE Texel bilinear_texels(const std::uint64_t* texels, std::int32_t index, std::int32_t row, std::int32_t wx,
+                                   std::int32_t wy) {
+  using namespace texel_detail;
+  const std::uint64_t* top = texels + index;
+  const std::uint64_t* bottom = texels + row;
+  Texel left, right;
+  for (int c = 0; c < 4; ++c) {
+    left.channel[c] = lerp15(channel15(top[0], c), channel15(bottom[0], c), wy);
+    right.channel[c] = lerp15(channel15(top[1], c), channel15(bottom[1], c), wy);
+  }
+  return lerp_texels(left, right, wx);
+}
+SHOAL_INLINE Vec4<float> texels_to_float(const Texel& t) {
+  constexpr float kScale = 1.0f / kTexelOne;
+  return {static_cast<float>(t.channel[0]) * kScale, static_cast<float>(t.channel[1]) * kScale,
+          static_cast<float>(t.channel[2]) * kScale, static_cast<float>(t.channel[3]) * kScale};
+}
+
+// --- Sixteen pixels ---
+//
+// A register holds lanes of 128 bits, each two texels. 128-bit lane k of all lanes together serves pixels 4k to 4k + 3,
+// and nothing ever crosses lanes, so the algorithm is one for every register size.
+namespace texel_detail {
+
+#if defined(SHOAL_ISA_AVX512)
+using Reg = __m512i;
+SHOAL_INLINE Reg add16(Reg a, Reg b) { return _mm512_add_epi16(a, b); }
+SHOAL_INLINE Reg sub16(Reg a, Reg b) { return _mm512_sub_epi16(a, b); }
+SHOAL_INLINE Reg mulhrs16(Reg a, Reg b) { return _mm512_mulhrs_epi16(a, b); }
+SHOAL_INLINE Reg low16(Reg a, Reg b) { return _mm512_unpacklo_epi16(a, b); }
+SHOAL_INLINE Reg high16(Reg a, Reg b) { return _mm512_unpackhi_epi16(a, b); }
+SHOAL_INLINE Reg low64(Reg a, Reg b) { return _mm512_unpacklo_epi64(a, b); }
+SHOAL_INLINE Reg high64(Reg a, Reg b) { return _mm512_unpackhi_epi64(a, b); }
+template <int kWords>
+SHOAL_INLINE Reg words(Reg a) { return _mm512_shuffle_epi32(a, static_cast<_MM_PERM_ENUM>(kWords)); }
+SHOAL_INLINE Reg zero() { return _mm512_setzero_si512(); }
+SHOAL_INLINE const __m128i* at(const std::uint64_t* p) { return reinterpret_cast<const __m128i*>(p); }
+SHOAL_INLINE Reg load_pairs(const std::uint64_t* texels, const std::int32_t* index) {
+  const __m256i low = _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(at(texels + index[0]))),
+                                              _mm_loadu_si128(at(texels + index[4])), 1);
+  const __m256i high = _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(at(texels + index[8]))),
+                                               _mm_loadu_si128(at(texels + index[12])), 1);
+  return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+}
+#elif defined(SHOAL_ISA_AVX2)
+using Reg = __m256i;
+SHOAL_INLINE Reg add16(Reg a, Reg b) { return _mm256_add_epi16(a, b); }
+SHOAL_INLINE Reg sub16(Reg a, Reg b) { return _mm256_sub_epi16(a, b); }
+SHOAL_INLINE Reg mulhrs16(Reg a, Reg b) { return _mm256_mulhrs_epi16(a, b); }
+SHOAL_INLINE Reg low16(Reg a, Reg b) { return _mm256_unpacklo_epi16(a, b); }
+SHOAL_INLINE Reg high16(Reg a, Reg b) { return _mm256_unpackhi_epi16(a, b); }
+SHOAL_INLINE Reg low64(Reg a, Reg b) { return _mm256_unpacklo_epi64(a, b); }
+SHOAL_INLINE Reg high64(Reg a, Reg b) { return _mm256_unpackhi_epi64(a, b); }
+template <int kWords>
+SHOAL_INLINE Reg words(Reg a) { return _mm256_shuffle_epi32(a, kWords); }
+SHOAL_INLINE Reg zero() { return _mm256_setzero_si256(); }
+SHOAL_INLINE const __m128i* at(const std::uint64_t* p) { return reinterpret_cast<const __m128i*>(p); }
+SHOAL_INLINE Reg load_pairs(const std::uint64_t* texels, const std::int32_t* index) {
+  return _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(at(texels + index[0]))),
+                                 _mm_loadu_si128(at(texels + index[4])), 1);
+}
+#elif defined(SHOAL_ISA_SSE42)
+using Reg = __m128i;
+SHOAL_INLINE Reg add16(Reg a, Reg b) { return _mm_add_epi16(a, b); }
+SHOAL_INLINE Reg sub16(Reg a, Reg b) { return _mm_sub_epi16(a, b); }
+SHOAL_INLINE Reg mulhrs16(Reg a, Reg b) { return _mm_mulhrs_epi16(a, b); }
+SHOAL_INLINE Reg low16(Reg a, Reg b) { return _mm_unpacklo_epi16(a, b); }
+SHOAL_INLINE Reg high16(Reg a, Reg b) { return _mm_unpackhi_epi16(a, b); }
+SHOAL_INLINE Reg low64(Reg a, Reg b) { return _mm_unpacklo_epi64(a, b); }
+SHOAL_INLINE Reg high64(Reg a, Reg b) { return _mm_unpackhi_epi64(a, b); }
+template <int kWords>
+SHOAL_INLINE Reg words(Reg a) { return _mm_shuffle_epi32(a, kWords); }
+SHOAL_INLINE Reg zero() { return _mm_setzero_si128(); }
+SHOAL_INLINE Reg load_pairs(const std::uint64_t* texels, const std::int32_t* index) {
+  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(texels + index[0]));
+}
+#elif defined(SHOAL_ISA_NEON)
+using Reg = int16x8_t;
+SHOAL_INLINE Reg add16(Reg a, Reg b) { return vaddq_s16(a, b); }
+SHOAL_INLINE Reg sub16(Reg a, Reg b) { return vsubq_s16(a, b); }
+SHOAL_INLINE Reg mulhrs16(Reg a, Reg b) { return vqrdmulhq_s16(a, b); }
+SHOAL_INLINE Reg low16(Reg a, Reg b) { return vzip1q_s16(a, b); }
+SHOAL_INLINE Reg high16(Reg a, Reg b) { return vzip2q_s16(a, b); }
+SHOAL_INLINE Reg low64(Reg a, Reg b) {
+  return vreinterpretq_s16_s64(vzip1q_s64(vreinterpretq_s64_s16(a), vreinterpretq_s64_s16(b)));
+}
+SHOAL_INLINE Reg high64(Reg a, Reg b) {
+  return vreinterpretq_s16_s64(vzip2q_s64(vreinterpretq_s64_s16(a), vreinterpretq_s64_s16(b)));
+}
+template <int kWords>
+SHOAL_INLINE Reg words(Reg a) {
+  const int32x4_t v = vreinterpretq_s32_s16(a);
+  const int32x4_t low = kWords == 0x50 ? vzip1q_s32(v, v) : vzip2q_s32(v, v);
+  const int32x4_t all_of_one = vdupq_laneq_s32(v, kWords & 3);
+  return vreinterpretq_s16_s32(kWords == 0x50 || kWords == 0xFA ? low : all_of_one);
+}
+SHOAL_INLINE Reg zero() { return vdupq_n_s16(0); }
+SHOAL_INLINE Reg load_pairs(const std::uint64_t* texels, const std::int32_t* index) {
+  return vreinterpretq_s16_u64(vld1q_u64(texels + index[0]));
+}
+#else
+struct Reg {
+  std::int16_t v[8];
+};
+template <class Op>
+SHOAL_INLINE Reg each16(Op op) {
+  Reg r;
+  for (int i = 0; i < 8; ++i) r.v[i] = static_cast<std::int16_t>(op(i));
+  return r;
+}
+SHOAL_INLINE Reg add16(Reg a, Reg b) { return each16([&](int i) { return a.v[i] + b.v[i]; }); }
+SHOAL_INLINE Reg sub16(Reg a, Reg b) { return each16([&](int i) { return a.v[i] - b.v[i]; }); }
+SHOAL_INLINE Reg mulhrs16(Reg a, Reg b) { return each16([&](int i) { return (a.v[i] * b.v[i] + 0x4000) >> 15; }); }
+SHOAL_INLINE Reg low16(Reg a, Reg b) { return each16([&](int i) { return (i & 1 ? b : a).v[i >> 1]; }); }
+SHOAL_INLINE Reg high16(Reg a, Reg b) { return each16([&](int i) { return (i & 1 ? b : a).v[4 + (i >> 1)]; }); }
+SHOAL_INLINE Reg low64(Reg a, Reg b) { return each16([&](int i) { return (i & 4 ? b : a).v[i & 3]; }); }
+SHOAL_INLINE Reg high64(Reg a, Reg b) { return each16([&](int i) { return (i & 4 ? b : a).v[4 + (i & 3)]; }); }
+template <int kWords>
+SHOAL_INLINE Reg words(Reg a) {
+  return each16([&](int i) { return a.v[2 * (kWords >> (i & 6) & 3) + (i & 1)]; });
+}
+SHOAL_INLINE Reg zero() { return Reg{}; }
+// Texel by texel, so that the order of bytes in memory does not matter.
+SHOAL_INLINE Reg load_pairs(const std::uint64_t* texels, const std::int32_t* index) {
+  return each16([&](int i) { return texels[index[0] + (i >> 2)] >> (16 * (i & 3)); });
+}
+#endif
+
+inline constexpr int kRegs = 64 / static_cast<int>(sizeof(Reg));  // registers that hold sixteen int32s
+struct Words {
+  Reg reg[kRegs];
+};
+
+SHOAL_INLINE Reg lerp15(Reg a, Reg b, Reg w) { return add16(a, mulhrs16(sub16(b, a), w)); }
+// A weight a pixel, twice in its 32 bits.
+SHOAL_INLINE Words twice(WideI w) { return std::bit_cast<Words>(w | (w << 16)); }
+
+// Words of one 128-bit lane, as in pshufd: all of pixel k, or pixels 0 0 1 1, or 2 2 3 3.
+template <int k>
+inline constexpr int kAllOf = k * 0x55;
+inline constexpr int kFirstTwo = 0x50, kLastTwo = 0xFA;
+
+}  // namespace texel_detail
+
+// Sixteen texels: of a 128-bit lane's four pixels, 0 and 1 in pair 0, 2 and 3 in pair 1.
+struct WideTexel {
+  texel_detail::Reg pair[texel_detail::kRegs][2];
+};
+
+//   w  0 to 32767
+SHOAL_INLINE WideTexel lerp_texels(const WideTexel& a, const WideTexel& b, WideI w) {
+  using namespace texel_detail;
+  const Words weight = twice(w);
+  WideTexel r;
+  for (int k = 0; k < kRegs; ++k) {
+    r.pair[k][0] = lerp15(a.pair[k][0], b.pair[k][0], words<kFirstTwo>(weight.reg[k]));
+    r.pair[k][1] = lerp15(a.pair[k][1], b.pair[k][1], words<kLastTwo>(weight.reg[k]));
+  }
+  return r;
+}
+
+// The four texels texels[index], [index + 1], [row] and [row + 1] of every lane, filtered: first down, then across.
+//   index, row  of the upper and of the lower pair
+//   wx, wy      0 to 32767: weight of the right and of the lower texels
+SHOAL_INLINE WideTexel bilinear_texels(const std::uint64_t* texels, WideI index, WideI row, WideI wx, WideI wy) {
+  using namespace texel_detail;
+  alignas(64) std::int32_t top[16], bottom[16];
+  index.store(top);
+  row.store(bottom);
+  const Words across = twice(wx), down = twice(wy);
+  WideTexel r;
+  for (int k = 0; k < kRegs; ++k) {
+    const std::int32_t* i = top + k * (16 / kRegs);
+    const std::int32_t* j = bottom + k * (16 / kRegs);
+    const Reg v0 = lerp15(load_pairs(texels, i), load_pairs(texels, j), words<kAllOf<0>>(down.reg[k]));
+    const Reg v1 = lerp15(load_pairs(texels, i + 1), load_pairs(texels, j + 1), words<kAllOf<1>>(down.reg[k]));
+    const Reg v2 = lerp15(load_pairs(texels, i + 2), load_pairs(texels, j + 2), words<kAllOf<2>>(down.reg[k]));
+    const Reg v3 = lerp15(load_pairs(texels, i + 3), load_pairs(texels, j + 3), words<kAllOf<3>>(down.reg[k]));
+    r.pair[k][0] = lerp15(low64(v0, v1), high64(v0, v1), words<kFirstTwo>(across.reg[k]));
+    r.pair[k][1] = lerp15(low64(v2, v3), high64(v2, v3), words<kLastTwo>(across.reg[k]));
+  }
+  return r;
+}
+
+// To linear floats, 1 for kTexelOne.
+SHOAL_INLINE Vec4<WideF> texels_to_float(const WideTexel& t) {
+  using namespace texel_detail;
+  Words r, g, b, a;
+  for (int k = 0; k < kRegs; ++k) {
+    const Reg even_odd_low = low16(t.pair[k][0], t.pair[k][1]);    // R0 R2 G0 G2 B0 B2 A0 A2
+    const Reg even_odd_high = high16(t.pair[k][0], t.pair[k][1]);  // R1 R3 G1 G3 B1 B3 A1 A3
+    const Reg rg = low16(even_odd_low, even_odd_high);             // R0 R1 R2 R3 G0 G1 G2 G3
+    const Reg ba = high16(even_odd_low, even_odd_high);
+    r.reg[k] = low16(rg, zero());
+    g.reg[k] = high16(rg, zero());
+    b.reg[k] = low16(ba, zero());
+    a.reg[k] = high16(ba, zero());
+  }
+  const WideF scale(1.0f / kTexelOne);
+  return {to_float(std::bit_cast<WideI>(r)) * scale, to_float(std::bit_cast<WideI>(g)) * scale,
+          to_float(std::bit_cast<WideI>(b)) * scale, to_float(std::bit_cast<WideI>(a)) * scale};
+}
+
+}  // namespace shoal::inline SHOAL_ISA_NS
