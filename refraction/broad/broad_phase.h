@@ -1,9 +1,9 @@
 // The broad phase: where a point on the far side of flat water appears to the eye.
 //
 // A point P on the other side of the plane from the eye is moved along the plane's normal to its virtual position V, at
-// the apparent distance v from the plane: the straight line from the eye to V crosses the plane where the refracted path
-// to P does (refraction/broad/path_solver.h). Positions along the plane are kept, so what is over what is kept too, and
-// world positions stay affine on a virtual triangle's projection onto the plane.
+// the apparent distance v from the plane: the straight line from the eye to V crosses the plane where the refracted
+// path to P does (refraction/broad/path_solver.h). Positions along the plane are kept, so what is over what is kept
+// too, and world positions stay affine on a virtual triangle's projection onto the plane.
 //
 // The map goes on past the plane, so that geometry may be clipped a little beyond it:
 // - from the thin side (air, for ior > 1) it is the identity there, and continuous;

@@ -28,8 +28,8 @@ struct ExactRay {
 //
 //   bp   the plane and the eye; the eye's side is the incident one
 //   ray  from pixel_ray (or any other from the eye's side), direction of any length but 0
-// Returns all of ExactRay. Where `crosses` is false the ray is parallel to the plane, goes away from it or starts behind
-// it: t is 0, the crossing the origin, and the directions are those of the angle with the plane, finite but meaningless.
+// Returns all of ExactRay. Where `crosses` is false the ray is parallel to the plane, goes away from it or starts
+// behind it: t is 0, the crossing the origin, and the directions are finite but meaningless.
 // Error: crossing 4 roundings of its coordinates over the cosine of incidence; directions as `refract`
 //        (tests/refraction/test_exact_ray.cpp).
 template <class F>
