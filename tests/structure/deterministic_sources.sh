@@ -1,0 +1,28 @@
+#!/bin/bash
+# Nothing whose result depends on the library, the compiler or the run is named in code that reaches a pixel.
+set -uo pipefail
+status=0
+files=$(find core raster water refraction scene -name '*.h' -o -name '*.cpp' | grep -vE '^scene/(gltf|images|export_glb)' | LC_ALL=C sort)
+
+# forbid WHY REGEX: comments do not count.
+forbid() {
+  local file hits
+  for file in $files; do
+    hits=$(sed -E 's,//.*$,,' "$file" | grep -nE "$2")
+    if [[ -n $hits ]]; then
+      while IFS= read -r hit; do echo "$file:$hit"; done <<<"$hits"
+      echo "  $1"
+      status=1
+    fi
+  done
+}
+
+functions='a?sinh?|a?cosh?|a?tanh?|atan2|exp2?|expm1|log(2|10|1p|b)?|pow|cbrt|hypot|fmod|remainder|remquo|fma|lerp|erfc?|[lt]gamma'
+forbid "libm differs between machines; core/math.h has ours" "(std|glm)::($functions)(f|l)?[[:space:]]*\("
+forbid "libm differs between machines; core/math.h has ours" "(^|[^A-Za-z0-9_:.>])($functions)f[[:space:]]*\("
+forbid "distributions differ between standard libraries" 'std::[a-z_]+_distribution'
+forbid "the order of unordered containers differs between standard libraries" 'std::unordered_'
+forbid "no run may depend on the clock or on a random device" 'std::(random_device|time\b|rand\b)'
+forbid "atomic floats add up in the order of arrival" 'std::atomic<[[:space:]]*(float|double)'
+forbid "sums whose order is the library's" 'std::(reduce|transform_reduce|execution)'
+exit $status
