@@ -35,8 +35,8 @@ SHOAL_INLINE Vec3<F> reflect(Vec3<F> d, Vec3<F> n) {
 //   eta  n_incident / n_transmitted, in [1/3, 3]; 1 returns d up to rounding
 // Returns the transmitted direction. Beyond the critical angle valid is false and the direction tangential; at it both
 // formulas meet.
-// Error: direction within 1e-6 away from the critical angle, and within 2e-6 / cos_transmitted near it, where the
-//        function itself is that steep (tests/water/test_optics.cpp).
+// Error: direction within 1.6e-6 where cos_transmitted > 0.5, and within 1.6e-6 / cos_transmitted down to 1e-3, towards
+//        the critical angle, where the function itself is that steep (tests/water/test_optics.cpp).
 template <class F>
 SHOAL_INLINE Refraction<F> refract(Vec3<F> d, Vec3<F> n, F eta) {
   const F cos_i = max(-dot(d, n), F(0.0f));
@@ -56,7 +56,7 @@ SHOAL_INLINE Refraction<F> refract(Vec3<F> d, Vec3<F> n, F eta) {
 //         r_s = (eta^2 - 1) / (eta cos_i + cos_t)^2,
 //         r_p = (1 - eta^2) ((1 + eta^2) cos_i^2 - eta^2) / (cos_i + eta cos_t)^2,
 //         which cancel nowhere but at Brewster's angle, where r_p is 0.
-// Error: relative 3e-6 for eta < 1; for eta > 1 absolute 1e-6 / cos_t (test_optics.cpp).
+// Error: relative 6e-7 for eta < 1; for eta > 1 absolute 1.3e-6 / cos_t (test_optics.cpp).
 template <class F>
 SHOAL_INLINE F fresnel_dielectric(F cos_incident, F eta) {
   const F cos2_t = cos2_transmitted(cos_incident, eta);
@@ -84,7 +84,7 @@ SHOAL_INLINE F fresnel_schlick(F cos_incident, F eta) {
 // Beer and Lambert: what is left of each colour after a path.
 //   absorption_per_m  >= 0, 1/m;  path_m  >= 0, metres
 // Returns exp(-absorption path), 1 at path 0.
-// Error: relative 4e-7 + 1e-7 x the exponent (test_optics.cpp).
+// Error: relative 2e-7 (1 + absorption path) (test_optics.cpp).
 template <class F>
 SHOAL_INLINE F transmittance(F absorption_per_m, F path_m) {
   return det_exp2(absorption_per_m * path_m * F(-1.44269504f));
