@@ -4,8 +4,8 @@
 // Source: IEC 61966-2-1:1999, section 5.2.
 #pragma once
 
-#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 namespace shoal {
@@ -30,31 +30,48 @@ constexpr double srgb_to_linear(double encoded) {
 }
 
 namespace srgb_detail {
-constexpr std::array<std::int16_t, 256> make_linear15_from_srgb8() {
-  std::array<std::int16_t, 256> table{};
+// A plain array, so that kernels call no library function to read it.
+template <class T, std::size_t kSize>
+struct alignas(64) Table {
+  T at[kSize] = {};
+};
+
+constexpr Table<std::int16_t, 256> make_linear15_from_srgb8() {
+  Table<std::int16_t, 256> table;
   for (std::size_t i = 0; i < 256; ++i)
-    table[i] = static_cast<std::int16_t>(srgb_to_linear(static_cast<double>(i) / 255.0) * kTexelOne + 0.5);
+    table.at[i] = static_cast<std::int16_t>(srgb_to_linear(static_cast<double>(i) / 255.0) * kTexelOne + 0.5);
   return table;
 }
-constexpr std::array<float, 257> make_srgb8_thresholds() {
-  std::array<float, 257> table{};
+constexpr Table<float, 257> make_srgb8_thresholds() {
+  Table<float, 257> table;
   for (std::size_t k = 1; k < 256; ++k) {
     const double exact = srgb_to_linear((static_cast<double>(k) - 0.5) / 255.0);
     float rounded = static_cast<float>(exact);
     if (static_cast<double>(rounded) < exact) rounded = std::bit_cast<float>(std::bit_cast<std::uint32_t>(rounded) + 1);
-    table[k] = rounded;
+    table.at[k] = rounded;
   }
-  table[0] = -1.0f;
-  table[256] = 2.0f;
+  table.at[0] = -1.0f;
+  table.at[256] = 2.0f;
+  return table;
+}
+
+constexpr Table<float, 16> make_encode_scale() {
+  constexpr double kRoot = 1.3348398541700343649;  // 2^(5/12)
+  Table<float, 16> table;
+  double scale = 255.0 * 1.055;
+  for (std::size_t e = 0; e < 10; ++e, scale /= kRoot) table.at[(127 - e) & 15] = static_cast<float>(scale);
   return table;
 }
 }  // namespace srgb_detail
 
 // The 15-bit linear value nearest to an sRGB byte's.
-inline constexpr std::array<std::int16_t, 256> kLinear15FromSrgb8 = srgb_detail::make_linear15_from_srgb8();
+inline constexpr srgb_detail::Table<std::int16_t, 256> kLinear15FromSrgb8 = srgb_detail::make_linear15_from_srgb8();
 
 // Entry k, 1 to 255: the smallest float whose code floor(255 * srgb(x) + 0.5) is k. Entries 0 and 256 are out of range,
-// so that code k is right exactly where table[k] <= x < table[k + 1].
-inline constexpr std::array<float, 257> kSrgb8Threshold = srgb_detail::make_srgb8_thresholds();
+// so that code k is right exactly where at[k] <= x < at[k + 1].
+inline constexpr srgb_detail::Table<float, 257> kSrgb8Threshold = srgb_detail::make_srgb8_thresholds();
+
+// 255 * 1.055 * 2^(5/12 e) for the exponents e = -9 to 0, at the low four bits of the biased exponent.
+inline constexpr srgb_detail::Table<float, 16> kSrgbEncodeScale = srgb_detail::make_encode_scale();
 
 }  // namespace shoal

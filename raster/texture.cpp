@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "core/error.h"
@@ -164,7 +165,7 @@ Texture make_texture_rgba8(int width, int height, const std::uint8_t* texels, bo
     for (int x = 0; x < width; ++x, texels += 4) {
       std::uint32_t channel[4];
       for (int c = 0; c < 4; ++c)
-        channel[c] = srgb && c < 3 ? static_cast<std::uint32_t>(kLinear15FromSrgb8[texels[c]]) : unorm(texels[c]);
+        channel[c] = srgb && c < 3 ? static_cast<std::uint32_t>(kLinear15FromSrgb8.at[texels[c]]) : unorm(texels[c]);
       texture.rgba15[texel_number(texture, 0, x, y)] = pack15(channel);
     }
   }
@@ -197,8 +198,8 @@ Texture make_texture_float(int width, int height, const float* rgba) {
 std::vector<std::uint8_t> texture_bytes(const Texture& texture) {
   if (texture.format == TexelFormat::kRgba32Float) throw Error("texture: texels are floats; expected an 8-bit format");
   const auto byte_of_srgb = [](std::uint32_t linear15) {
-    const auto at = std::lower_bound(kLinear15FromSrgb8.begin(), kLinear15FromSrgb8.end(), static_cast<int>(linear15));
-    return static_cast<std::uint8_t>(at - kLinear15FromSrgb8.begin());
+    const auto at = std::lower_bound(std::begin(kLinear15FromSrgb8.at), std::end(kLinear15FromSrgb8.at), static_cast<int>(linear15));
+    return static_cast<std::uint8_t>(at - std::begin(kLinear15FromSrgb8.at));
   };
   const auto byte_of_unorm = [](std::uint32_t linear15) {
     return static_cast<std::uint8_t>((linear15 * 510u + kTexelOne) / (2u * kTexelOne));

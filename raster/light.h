@@ -1,0 +1,125 @@
+// Light on a surface: glTF's metallic-roughness material under directional lights and a hemisphere of ambient light.
+// One function, for the rasterizer and the ray tracer alike.
+#pragma once
+
+#include "core/vec_lanes.h"
+#include "raster/sky.h"
+#include "raster/surface.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+// Smoother surfaces are lit as if this rough: a mirror under a point-like sun would be one infinite pixel.
+inline constexpr float kMinRoughness = 0.045f;
+// The eye never sees a surface from behind its own plane, but interpolated normals say so: they count as this grazing.
+inline constexpr float kMinViewCosine = 1e-3f;
+inline constexpr float kInversePi = 0.318309886f;
+
+// The part of a shaded point that no light changes.
+template <class F>
+struct Reflectance {
+  Vec3<F> diffuse;  // albedo of the Lambert part
+  Vec3<F> f0;       // reflectance at normal incidence
+  F alpha2;         // fourth power of the roughness
+  Vec3<F> normal, view;
+  F n_dot_v;
+};
+
+template <class F>
+SHOAL_INLINE Reflectance<F> make_reflectance(const SurfaceSample<F>& s, Vec3<F> view_direction) {
+  const Vec3<F> dielectric = s.base_color * (F(1.0f) - s.metallic);
+  const F f0_dielectric = F(0.04f) * (F(1.0f) - s.metallic);
+  const Vec3<F> f0 = s.base_color * s.metallic + Vec3<F>{f0_dielectric, f0_dielectric, f0_dielectric};
+  const F roughness = max(s.roughness, F(kMinRoughness));
+  const F alpha = roughness * roughness;
+  const F n_dot_v = max(dot(s.normal_world, view_direction), F(kMinViewCosine));
+  return {dielectric, f0, alpha * alpha, s.normal_world, view_direction, n_dot_v};
+}
+
+// Radiance towards the viewer for unit irradiance on a surface facing the light: BRDF times cosine.
+//   to_light  unit
+// Returns 0 where the light is behind the surface.
+// Source: glTF 2.0, appendix B.3 (Lambert; GGX; height-correlated Smith; Schlick). Differs: D and V share one division,
+// and with h = l + v not normalized, D's 1 - (n.h)^2 (1 - a^2) is |n x h|^2 + a^2 (n.h)^2 over |h|^2, which does not
+// cancel on smooth surfaces. Error: 2e-5 relative plus 1e-6 against double (tests/raster/test_light.cpp).
+template <class F>
+SHOAL_INLINE Vec3<F> reflect_light(const Reflectance<F>& r, Vec3<F> to_light, F n_dot_l) {
+  const F one(1.0f);
+  const F l = max(n_dot_l, F(0.0f)), v = r.n_dot_v;
+  const Vec3<F> half = to_light + r.view;
+  const F half2 = max(dot(half, half), F(1e-12f));
+
+  const Vec3<F> sine = cross(r.normal, half);
+  const F n_dot_half = dot(r.normal, half);
+  const F spread = dot(sine, sine) + r.alpha2 * (n_dot_half * n_dot_half);
+  const F rest = one - r.alpha2;
+  const F smith = l * sqrt(v * v * rest + r.alpha2) + v * sqrt(l * l * rest + r.alpha2);
+  const F denominator = max((spread * spread) * smith, F(1e-30f));
+  const F specular = (F(0.5f * kInversePi) * l) * (r.alpha2 * (half2 * half2)) / denominator;
+
+  // v.h of the unit vectors is half of |l + v|.
+  const F grazing = max(one - F(0.5f) * sqrt(half2), F(0.0f));
+  const F grazing2 = grazing * grazing, schlick = (grazing2 * grazing2) * grazing;
+  const Vec3<F> fresnel = r.f0 * (one - schlick) + Vec3<F>{schlick, schlick, schlick};
+  const F lambert = l * F(kInversePi);
+  const Vec3<F> diffuse = r.diffuse * lambert;
+  return diffuse + fresnel * (Vec3<F>{specular, specular, specular} - diffuse);
+}
+
+// Irradiance over pi of the hemisphere round a direction: the mean of above and below, weighted by how far it points up.
+template <class F>
+SHOAL_INLINE Vec3<F> ambient_toward(const Lighting& lighting, Vec3<F> direction) {
+  const F up = F(0.5f) * dot(direction, broadcast<F>(lighting.up_world)) + F(0.5f);
+  return lerp(broadcast<F>(lighting.ambient_down), broadcast<F>(lighting.ambient_up), up);
+}
+
+// Scale and bias (x, y) of f0: how much of a uniform environment the specular lobe reflects.
+// Source: Karis 2014, "Physically Based Shading on Mobile" (the coefficients of his EnvBRDFApprox, after Lazarov 2013).
+// Differs: exp2(-9.28 x) is the sixteenth power of our quadratic fit of exp2(-0.58 x), within 5e-3 of it relatively.
+template <class F>
+SHOAL_INLINE Vec2<F> environment_brdf(F roughness, F n_dot_v) {
+  const F root = (F(0.06637507f) * n_dot_v + F(-0.39685596f)) * n_dot_v + F(1.0f);
+  const F root2 = root * root, root4 = root2 * root2, root8 = root4 * root4;
+  const F smooth = F(1.0f) - roughness;
+  const F peak = min(smooth * smooth, root8 * root8) * smooth + (F(-0.0275f) * roughness + F(0.0425f));
+  const F scale = F(-1.04f) * peak + (F(-0.572f) * roughness + F(1.04f));
+  const F bias = F(1.04f) * peak + (F(0.022f) * roughness + F(-0.04f));
+  return {scale, max(bias, F(0.0f))};
+}
+
+// Ambient light reflected towards the viewer: Lambert under the hemisphere, and the specular lobe's mean of the sky
+// round the mirrored direction, which goes from the sky itself (smooth) to the hemisphere's (rough).
+template <class F>
+SHOAL_INLINE Vec3<F> reflect_ambient(const SurfaceSample<F>& s, const Reflectance<F>& r, const Lighting& lighting) {
+  const Vec3<F> mirrored = r.normal * (r.n_dot_v + r.n_dot_v) - r.view;
+  Vec3<F> around = ambient_toward<F>(lighting, mirrored);
+  if (any(s.roughness < F(1.0f)))
+    around = lerp(background_gradient<F>(lighting.background, mirrored), around, s.roughness);
+  const Vec2<F> lobe = environment_brdf<F>(s.roughness, r.n_dot_v);
+  const Vec3<F> specular = r.f0 * lobe.x + Vec3<F>{lobe.y, lobe.y, lobe.y};
+  const Vec3<F> diffuse = r.diffuse * ambient_toward<F>(lighting, r.normal);
+  return diffuse + specular * (around - diffuse);
+}
+
+// Radiance of surface points towards the viewer.
+//   s               what is seen
+//   unlit           lanes that are their base colour
+//   view_direction  unit, from the point towards the eye
+//   light_scale     transmittance of the way from the light to the point (1 in air), for lights and ambient alike
+// Returns linear radiance; the unlit lanes' is exactly their base colour.
+// Source: glTF 2.0, appendix B; KHR_materials_unlit. Error: see the parts.
+template <class F>
+SHOAL_INLINE Vec3<F> shade(const SurfaceSample<F>& s, MaskOf<F> unlit, Vec3<F> view_direction, const Lighting& lighting,
+                           Vec3<F> light_scale) {
+  if (all(unlit)) return s.base_color;
+  const Reflectance<F> r = make_reflectance<F>(s, view_direction);
+  Vec3<F> reflected = reflect_ambient<F>(s, r, lighting);
+  for (const DirectionalLight& light : lighting.directional) {
+    const Vec3<F> to_light = -broadcast<F>(light.direction_world);
+    const F n_dot_l = dot(r.normal, to_light);
+    if (none(n_dot_l > F(0.0f))) continue;
+    reflected = reflected + broadcast<F>(light.irradiance) * reflect_light<F>(r, to_light, n_dot_l);
+  }
+  return select(unlit, s.base_color, s.emissive + light_scale * reflected);
+}
+
+}  // namespace shoal::inline SHOAL_ISA_NS
