@@ -89,15 +89,14 @@ SHOAL_INLINE IntOf<F> encode_srgb8(F linear) {
 
 // Writes a 4 x 4 block of codes (0 to 255) as RGB bytes.
 //   pixels     of the block's top left pixel; four rows of twelve bytes, row_bytes apart
+// Little-endian machines only, as all that Shoal knows are.
 SHOAL_INLINE void store_rgb8_block(std::uint8_t* pixels, std::size_t row_bytes, WideI r, WideI g, WideI b) {
   alignas(64) std::int32_t packed[16];
   (r | (g << 8) | (b << 16)).store(packed);
   for (int y = 0; y < 4; ++y, pixels += row_bytes) {
     std::uint32_t p[4];
     std::memcpy(p, packed + 4 * y, sizeof p);
-    std::uint8_t bytes[12];
-    for (int x = 0; x < 4; ++x)
-      for (int c = 0; c < 3; ++c) bytes[3 * x + c] = static_cast<std::uint8_t>(p[x] >> (8 * c));
+    const std::uint32_t bytes[3] = {p[0] | p[1] << 24, p[1] >> 8 | p[2] << 16, p[2] >> 16 | p[3] << 8};
     std::memcpy(pixels, bytes, sizeof bytes);
   }
 }

@@ -31,11 +31,11 @@ SHOAL_INLINE Vec3<F> background_gradient(const Background& background, Vec3<F> d
   const F y = min(max(direction_world.y, F(-1.0f)), F(1.0f));
   const F down = F(1.0f) - max(y, F(0.0f));
   const F down2 = down * down, down4 = down2 * down2, down16 = (down4 * down4) * (down4 * down4);
-  // The air mass grows slowly at first, then steeply in the last degrees: (1 - y)^3 and a haze of (1 - y)^16 on top.
-  const Vec3<F> zenith = broadcast<F>(background.zenith), horizon = broadcast<F>(background.horizon);
-  const Vec3<F> clear = lerp(zenith, horizon, F(0.85f) * (down2 * down) + F(0.15f) * down16);
-  const Vec3<F> haze = clear + horizon * (F(0.12f) * down16);
-  return lerp(broadcast<F>(background.ground), haze, sky_detail::above_horizon(y));
+  // The air mass grows slowly at first, then steeply in the last degrees: (1 - y)^3, and a band of haze of (1 - y)^16.
+  const Vec3f step = background.horizon - background.zenith;
+  const F low = F(0.8f) * (down2 * down) + F(0.2f) * down16;
+  const Vec3<F> clear = broadcast<F>(background.zenith) + broadcast<F>(step) * low;
+  return lerp(broadcast<F>(background.ground), clear, sky_detail::above_horizon(y));
 }
 
 // Everything: gradient, and the sun's disc and glow where there is a sun.
