@@ -1,0 +1,84 @@
+// Shared by the files of the glTF loader only.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <tiny_gltf.h>
+
+#include "core/error.h"
+#include "scene/gltf.h"
+
+namespace shoal::gltf {
+
+using Bytes = std::span<const std::uint8_t>;
+
+// An image as the file gives it: its encoded bytes, not decoded yet.
+struct EncodedImage {
+  std::string label;  // for messages: images[2] 'bricks.png'
+  std::string uri;    // relative file; empty: bytes
+  Bytes bytes;
+  std::vector<std::uint8_t> storage;  // of a data URI
+};
+
+// A parsed file, every index and range of it checked (gltf_schema.cpp).
+struct Document {
+  std::string path, folder;
+  LoadLimits limits;
+  tinygltf::Model model;  // without buffers and images: those are below
+  std::vector<std::uint8_t> file;
+  std::vector<std::vector<std::uint8_t>> buffer_storage;
+  std::vector<Bytes> buffers;
+  std::vector<EncodedImage> images;
+  std::vector<std::string> warnings;
+  std::uint64_t scene_bytes = 0;  // decoded so far
+};
+
+// Throws Error: "PATH: what; expected".
+[[noreturn]] void fail(const std::string& path, const std::string& what, const std::string& expected);
+
+// Adds a line once.
+void warn(Document& document, const std::string& line);
+
+// Counts decoded memory against the limit before it is taken.
+void charge(Document& document, std::uint64_t bytes, const std::string& what);
+
+// "accessors[3]", or "accessors[3] 'positions'".
+std::string label_of(const char* section, std::size_t index, const std::string& name = {});
+
+// Longer text is cut, line breaks and control characters become spaces: library messages, names of the file.
+std::string one_line(const std::string& text, std::size_t max_length = 200);
+
+// gltf_files.cpp
+std::vector<std::uint8_t> read_file(const std::string& path, std::uint64_t max_bytes, const std::string& blame);
+// The file that a URI names. Refuses schemes, absolute paths and `..`, and what lies outside of the folder.
+std::string resolve_uri(const Document& document, const std::string& uri, const std::string& label);
+
+// gltf_parse.cpp
+void parse_file(Document& document);
+
+// gltf_accessors.cpp. Elements as float, normalised integers scaled as the specification says; sparse applied.
+//   components  of one element: 1 to 4; the result has count * components floats, all finite
+std::vector<float> read_floats(Document& document, std::size_t accessor, int components, const std::string& use);
+std::vector<std::uint32_t> read_indices(Document& document, std::size_t accessor, std::uint64_t vertex_count);
+std::uint64_t accessor_count(const Document& document, std::size_t accessor);
+
+// Where a primitive's texture coordinates come from, from its material (KHR_texture_transform).
+struct UvSource {
+  int set = 0;
+  bool transformed = false;
+  float m[2][3] = {{1, 0, 0}, {0, 1, 0}};
+};
+
+// gltf_materials.cpp, gltf_meshes.cpp, gltf_nodes.cpp, gltf_water.cpp
+std::vector<UvSource> read_materials(Document& document, Scene& scene);
+void read_meshes(Document& document, Scene& scene, const std::vector<UvSource>& uv_sources);
+void read_nodes(Document& document, Scene& scene);
+bool read_water(Document& document, const tinygltf::Value& extras, const std::string& label, WaterSpec& water);
+void read_background(Document& document, const tinygltf::Value& extras, const std::string& label, Scene& scene);
+
+}  // namespace shoal::gltf

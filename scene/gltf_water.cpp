@@ -1,0 +1,211 @@
+// Water and background from extras. The keys are DESIGN.md's, section 4.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "scene/gltf_internal.h"
+
+namespace shoal::gltf {
+namespace {
+
+using tinygltf::Value;
+
+// Read from `extras.water` and from flat keys such as `water_ior`; the flat ones win.
+constexpr const char* kBodyKeys[] = {"size", "depth", "ior", "absorption", "surface", "geometry"};
+constexpr const char* kSurfaceKeys[] = {"type", "slope", "amplitude", "wavelength", "octaves", "speed", "seed"};
+constexpr const char* kFutureSurfaces[] = {"perlin", "ripples", "gradient-waves", "gerstner", "spectrum"};
+
+template <std::size_t N>
+bool is_one_of(const std::string& text, const char* const (&list)[N]) {
+  return std::find(std::begin(list), std::end(list), text) != std::end(list);
+}
+
+template <std::size_t N>
+std::string joined(const char* const (&list)[N]) {
+  std::string text;
+  for (const char* item : list) text += (text.empty() ? "" : ", ") + std::string(item);
+  return text;
+}
+
+// Numbers within [min, max], as float; `above`: min itself is out.
+struct Range {
+  double min, max;
+  bool above = false;
+  const char* expected;
+};
+
+std::vector<float> numbers(const Document& document, const Value& value, std::size_t count, const Range& range,
+                           const std::string& what) {
+  std::vector<float> result;
+  bool ok = true;
+  if (value.IsNumber()) {
+    ok = count == 1;
+    result.push_back(static_cast<float>(value.GetNumberAsDouble()));
+  } else {
+    ok = value.IsArray() && value.ArrayLen() == count;
+    for (std::size_t i = 0; ok && i < count; ++i) {
+      const Value& element = value.Get(static_cast<int>(i));
+      ok = element.IsNumber();
+      result.push_back(ok ? static_cast<float>(element.GetNumberAsDouble()) : 0.0f);
+    }
+  }
+  for (const float number : result) {
+    ok = ok && std::isfinite(number) && number >= static_cast<float>(range.min) &&
+         number <= static_cast<float>(range.max) && !(range.above && number <= static_cast<float>(range.min));
+  }
+  if (!ok) fail(document.path, what + " is wrong", std::string("expected ") + range.expected);
+  return result;
+}
+
+void read_surface_type(Document& document, const Value& value, const std::string& what, WaterSpec& water) {
+  if (!value.IsString()) fail(document.path, what + " is no name", "expected the type of a surface, such as flat");
+  const std::string& type = value.Get<std::string>();
+  if (type == "flat") {
+    water.surface.kind = SurfaceKind::kFlat;
+  } else if (is_one_of(type, kFutureSurfaces)) {
+    water.surface.kind = SurfaceKind::kFlat;
+    warn(document, "water surface '" + type + "' is not read yet: drawn flat");
+  } else {
+    fail(document.path, what + " is '" + one_line(type, 40) + "'", "expected flat, " + joined(kFutureSurfaces));
+  }
+}
+
+void read_surface(Document& document, const Value& value, const std::string& what, WaterSpec& water) {
+  if (!value.IsObject()) {
+    read_surface_type(document, value, what, water);
+    return;
+  }
+  for (const std::string& key : value.Keys()) {
+    if (key == "type") {
+      read_surface_type(document, value.Get(key), what + ".type", water);
+    } else if (is_one_of(key, kSurfaceKeys)) {
+      if (!value.Get(key).IsNumber()) fail(document.path, what + "." + key + " is no number", "expected one");
+    } else {
+      warn(document, "water surface key '" + one_line(key, 40) + "' is not known");
+    }
+  }
+}
+
+void read_key(Document& document, const std::string& key, const Value& value, const std::string& what,
+              WaterSpec& water) {
+  constexpr double kIorMin = 1.0 / 3.0;
+  if (key == "size") {
+    const auto size = numbers(document, value, 2, {0, 1e9, true, "[x, z] in metres, both more than 0"}, what);
+    water.has_size = true;
+    water.size_x = size[0];
+    water.size_z = size[1];
+  } else if (key == "depth") {
+    water.has_depth = true;
+    water.depth = numbers(document, value, 1, {0, 1e9, true, "metres, more than 0"}, what)[0];
+  } else if (key == "ior") {
+    water.ior = numbers(document, value, 1, {kIorMin, 3, false, "a number from 1/3 to 3"}, what)[0];
+  } else if (key == "absorption") {
+    const auto rgb = numbers(document, value, 3, {0, 1e9, false, "[r, g, b] in 1/m, 0 or more"}, what);
+    water.absorption = {rgb[0], rgb[1], rgb[2]};
+  } else if (key == "surface") {
+    read_surface(document, value, what, water);
+  } else if (key == "geometry") {
+    const std::string name = value.IsString() ? value.Get<std::string>() : std::string();
+    if (name != "normals" && name != "displaced") fail(document.path, what + " is wrong", "expected normals or displaced");
+    water.surface.geometry = name == "normals" ? WaterGeometry::kNormals : WaterGeometry::kDisplaced;
+  } else {
+    fail(document.path, what + " is no key of water", "expected " + joined(kBodyKeys));
+  }
+}
+
+Vec3f color(const Document& document, const Value& value, const std::string& what) {
+  const auto rgb = numbers(document, value, 3, {0, 1e9, false, "[r, g, b], linear, 0 or more"}, what);
+  return {rgb[0], rgb[1], rgb[2]};
+}
+
+void read_sky(const Document& document, const Value& value, const std::string& what, Background& sky) {
+  sky.kind = Background::Kind::kSky;
+  for (const std::string& key : value.Keys()) {
+    const std::string where = what + "." + key;
+    if (key == "type") {
+      if (!value.Get(key).IsString() || value.Get(key).Get<std::string>() != "sky") {
+        fail(document.path, where + " is wrong", "expected sky");
+      }
+    } else if (key == "zenith") {
+      sky.zenith = color(document, value.Get(key), where);
+    } else if (key == "horizon") {
+      sky.horizon = color(document, value.Get(key), where);
+    } else if (key == "ground") {
+      sky.ground = color(document, value.Get(key), where);
+    } else if (key == "sun") {
+      sky.sun = color(document, value.Get(key), where);
+    } else if (key == "to_sun") {
+      const auto v = numbers(document, value.Get(key), 3, {-1.001, 1.001, false, "a unit vector [x, y, z]"}, where);
+      const double square = (static_cast<double>(v[0]) * v[0] + static_cast<double>(v[1]) * v[1]) +
+                            static_cast<double>(v[2]) * v[2];
+      if (!(std::fabs(square - 1) < 1e-3)) fail(document.path, where + " is wrong", "expected a unit vector [x, y, z]");
+      sky.to_sun_world = {v[0], v[1], v[2]};
+    } else {
+      fail(document.path, where + " is no key of a sky", "expected type, zenith, horizon, ground, to_sun, sun");
+    }
+  }
+}
+
+}  // namespace
+
+bool read_water(Document& document, const Value& extras, const std::string& label, WaterSpec& water) {
+  if (!extras.IsObject()) return false;
+  bool is_water = false;
+  if (extras.Has("water")) {
+    const Value& value = extras.Get("water");
+    // Blender's check boxes export as true, older ones as 1.
+    if (value.IsBool()) {
+      is_water = value.Get<bool>();
+    } else if (value.IsNumber()) {
+      is_water = value.GetNumberAsDouble() != 0;
+    } else if (value.IsObject()) {
+      is_water = true;
+      for (const std::string& key : value.Keys()) {
+        read_key(document, key, value.Get(key), label + ".extras.water." + one_line(key, 40), water);
+      }
+    } else {
+      fail(document.path, label + ".extras.water is wrong", "expected an object, true or false");
+    }
+    if (!is_water) return false;
+  }
+  const std::string prefix = "water_";
+  for (const std::string& name : extras.Keys()) {
+    if (name.rfind(prefix, 0) != 0) continue;
+    const std::string key = name.substr(prefix.size());
+    const std::string what = label + ".extras." + one_line(name, 40);
+    if (is_one_of(key, kBodyKeys)) {
+      read_key(document, key, extras.Get(name), what, water);
+      is_water = true;
+    } else if (is_one_of(key, kSurfaceKeys)) {
+      if (key == "type") {
+        read_surface_type(document, extras.Get(name), what, water);
+      } else if (!extras.Get(name).IsNumber()) {
+        fail(document.path, what + " is no number", "expected one");
+      }
+      is_water = true;
+    } else {
+      warn(document, "extras key '" + one_line(name, 40) + "' is not known");
+    }
+  }
+  return is_water;
+}
+
+void read_background(Document& document, const Value& extras, const std::string& label, Scene& scene) {
+  if (!extras.IsObject() || !extras.Has("background")) return;
+  const Value& value = extras.Get("background");
+  const std::string what = label + ".extras.background";
+  Background background;
+  if (value.IsArray()) {
+    background.color = color(document, value, what);
+  } else if (value.IsObject()) {
+    read_sky(document, value, what, background);
+  } else if (value.IsString() && value.Get<std::string>() == "sky") {
+    background.kind = Background::Kind::kSky;
+  } else {
+    fail(document.path, what + " is wrong", "expected \"sky\", [r, g, b], or an object with the sky's colours");
+  }
+  scene.has_background = true;
+  scene.background = background;
+}
+
+}  // namespace shoal::gltf
