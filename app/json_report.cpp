@@ -1,0 +1,205 @@
+#include "app/json_report.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace shoal::app {
+namespace {
+
+std::string compiler_name() {
+#if defined(__clang__)
+  return __VERSION__;
+#else
+  return std::string("GCC ") + __VERSION__;
+#endif
+}
+
+// Kibibytes on Linux.
+double peak_rss_mb() {
+  struct rusage usage {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+// A method's option as a number or a truth value where it is one.
+Json option_value(const std::string& text) {
+  if (text == "true" || text == "false") return text == "true";
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end || !std::isfinite(value)) return text;
+  if (value == std::floor(value) && std::fabs(value) < 1e15) return static_cast<std::int64_t>(value);
+  return value;
+}
+
+void add_method_options(const FrameSettings& frame, Json& settings) {
+  for (const MethodInfo& method : method_infos()) {
+    if (frame.method != method.name) continue;
+    for (const auto& [key, value] : method.options) {
+      const auto given = frame.method_options.find(key);
+      settings[frame.method + "." + key] = option_value(given == frame.method_options.end() ? value : given->second);
+    }
+  }
+}
+
+// A key's value where all bodies agree on it, else a list with each body's.
+void add_water_keys(const RenderScene& scene, Json& settings) {
+  if (scene.waters.empty()) return;
+  std::vector<Json> bodies;
+  for (const WaterBody& body : scene.waters) bodies.push_back(water_json(body));
+  for (const auto& [key, value] : bodies.front().items()) {
+    const bool same = std::all_of(bodies.begin(), bodies.end(), [&](const Json& b) { return b.at(key) == value; });
+    if (same) {
+      settings[key] = value;
+      continue;
+    }
+    settings[key] = Json::array();
+    for (const Json& body : bodies) settings[key].push_back(body.at(key));
+  }
+}
+
+Json background_json(const Background& background) {
+  if (background.kind == Background::Kind::kSky) return "environment";
+  return json_vector(background.color);
+}
+
+// Of the frames in the middle, so that the stages of an even number of frames sum to what their median is.
+Json median_stages(const RunTimes& times) {
+  std::vector<std::size_t> order(times.frames_ms.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return times.frames_ms[a] < times.frames_ms[b]; });
+  const auto& low = times.stages_ms[order[(order.size() - 1) / 2]];
+  const auto& high = times.stages_ms[order[order.size() / 2]];
+  Json stages = Json::object();
+  for (std::size_t i = 0; i < low.size() && i < high.size(); ++i) {
+    stages[low[i].first] = json_double((low[i].second + high[i].second) / 2);
+  }
+  return stages;
+}
+
+// Microseconds are what a clock gives; more digits would be noise.
+Json json_ms(double ms) { return json_double(std::round(ms * 1e4) / 1e4); }
+
+}  // namespace
+
+Json json_float(float value) {
+  if (!std::isfinite(value)) return nullptr;
+  char text[64];
+  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+  double shortest = static_cast<double>(value);
+  if (error == std::errc()) std::from_chars(text, end, shortest);
+  return shortest;
+}
+
+Json json_double(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json json_vector(Vec2f v) { return Json::array({json_float(v.x), json_float(v.y)}); }
+Json json_vector(Vec3f v) { return Json::array({json_float(v.x), json_float(v.y), json_float(v.z)}); }
+
+std::string hex_float(float value) { return fmt::format("{:a}", static_cast<double>(value)); }
+
+Json json_hex(const std::vector<float>& values) {
+  Json hex = Json::array();
+  for (const float value : values) hex.push_back(hex_float(value));
+  return hex;
+}
+
+std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
+}
+
+Json water_json(const WaterBody& body) {
+  // The outline's extent along the body's own axes: `size`, when the body was given by one.
+  float low_x = 0, high_x = 0, low_z = 0, high_z = 0;
+  for (std::size_t i = 0; i < body.outline.size(); ++i) {
+    const Vec3f p = body.outline[i] - body.origin;
+    const float x = dot(p, body.axis_x), z = dot(p, body.axis_z);
+    low_x = i ? std::min(low_x, x) : x;
+    high_x = i ? std::max(high_x, x) : x;
+    low_z = i ? std::min(low_z, z) : z;
+    high_z = i ? std::max(high_z, z) : z;
+  }
+  Json json = Json::object();
+  json["size"] = json_vector(Vec2f{high_x - low_x, high_z - low_z});
+  json["depth"] = json_float(body.depth_m);
+  json["ior"] = json_float(body.ior);
+  json["absorption"] = json_vector(body.absorption_per_m);
+  json["surface"] = surface_name(body.surface.kind);
+  json["geometry"] = geometry_name(body.surface.geometry);
+  return json;
+}
+
+Json settings_json(const Options& options, const RenderScene& scene, const PlacedCamera& camera, int threads) {
+  const FrameSettings& frame = options.frame;
+  Json s = Json::object();
+  s["method"] = frame.method;
+  add_method_options(frame, s);
+  s["size"] = {frame.width_px, frame.height_px};
+  s["spp"] = frame.spp;
+  s["camera"] = camera.name;
+  s["time"] = options.time_s;
+  s["step"] = options.step_s;
+  s["frames"] = options.frames ? Json(fmt::format("{}:{}", options.frames->first, options.frames->last)) : Json(nullptr);
+  s["warmup"] = options.warmup;
+  s["repeat"] = options.repeat;
+  s["threads"] = threads;
+  s["tile"] = frame.tile_px;
+  s["isa"] = isa_name(frame.isa);
+  s["anisotropy"] = frame.anisotropy;
+  s["shadows"] = "off";
+  s["reflections"] = "environment";
+  s["exposure"] = json_float(frame.exposure_stops);
+  s["tonemap"] = tone_map_name(frame.tone_map);
+  s["background"] = background_json(scene.lighting.background);
+  s["aov"] = Json::array();
+  for (const Aov aov : options.aovs) {
+    for (const AovInfo& info : aov_infos()) {
+      if (info.aov == aov) s["aov"].push_back(info.name);
+    }
+  }
+  s["triangles"] = scene.geometry.triangles.size();
+  add_water_keys(scene, s);
+  return s;
+}
+
+Json render_report(const Options& options, const LoadedScene& loaded, const PlacedCamera& camera, int threads,
+                   const Frame& first_frame, const RunTimes& times) {
+  const FrameSettings& frame = options.frame;
+  Json r = Json::object();
+  r["scene"] = options.scene.name;
+  r["method"] = frame.method;
+  r["size"] = {frame.width_px, frame.height_px};
+  r["triangles"] = loaded.render.geometry.triangles.size();
+  r["water_pixels"] = first_frame.water_pixels;
+  r["threads"] = threads;
+  r["tile"] = frame.tile_px;
+  r["isa"] = isa_name(frame.isa);
+  r["spp"] = frame.spp;
+  r["settings"] = settings_json(options, loaded.render, camera, threads);
+  r["version"] = SHOAL_VERSION;
+  r["compiler"] = compiler_name();
+  r["load_ms"] = json_ms(times.load_ms);
+  r["build_ms"] = json_ms(times.build_ms);
+  r["write_ms"] = json_ms(times.write_ms);
+  r["stages_ms"] = median_stages(times);
+  Json summary = Json::object();
+  summary["median"] = json_ms(median(times.frames_ms));
+  summary["min"] = json_ms(*std::min_element(times.frames_ms.begin(), times.frames_ms.end()));
+  summary["n"] = times.frames_ms.size();
+  r["frame_ms"] = summary;
+  r["frames_ms"] = Json::array();
+  for (const double ms : times.frames_ms) r["frames_ms"].push_back(json_ms(ms));
+  r["frame_digests"] = times.frame_digests;
+  r["peak_rss_mb"] = json_double(std::round(peak_rss_mb() * 10) / 10);
+  return r;
+}
+
+}  // namespace shoal::app

@@ -1,0 +1,312 @@
+#include "app/options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace shoal::app {
+namespace {
+
+using Names = std::vector<std::string>;
+
+constexpr int kMaxSpp = 256;
+constexpr int kMaxThreads = 1024;
+constexpr int kMaxRuns = 1'000'000;       // warm-up and repeated frames
+constexpr double kMaxTime_s = 1e6;
+constexpr double kMaxExposureStops = 64;
+constexpr double kMaxRadiance = 1e6;      // of a background
+constexpr double kMaxLength_m = 1e6;      // of a body of water
+constexpr double kMaxAbsorption = 1e4;    // 1/m
+constexpr std::int64_t kMaxTriangles = 50'000'000;
+
+// What is planned, named in the design, and not built yet: refused by name, apart from what does not exist at all.
+const Names kComingMethods = {"liu-2020",  "steel-2024",     "narrow-only", "screen-space", "distort",
+                              "distance-field", "block-grid", "ray-traced"};
+const Names kComingSurfaces = {"perlin", "ripples", "gradient-waves", "gerstner", "spectrum"};
+const Names kComingWaterKeys = {"slope", "amplitude", "wavelength", "octaves", "speed", "seed"};
+const Names kWaterKeys = {"size", "depth", "ior", "absorption", "surface", "geometry"};
+
+bool contains(const Names& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+[[noreturn]] void not_yet(std::string_view option, std::string_view value, const Names& available) {
+  throw UsageError(fmt::format("{} '{}': has not come yet; expected {}", option, value, join(available)));
+}
+
+[[noreturn]] void unknown(std::string_view option, std::string_view value, const Names& available) {
+  throw UsageError(fmt::format("{} '{}': unknown; expected one of: {}", option, value, join(available)));
+}
+
+// One of `available`, by its place there.
+std::size_t read_choice(std::string_view option, std::string_view value, const Names& available, const Names& coming) {
+  const auto found = std::find(available.begin(), available.end(), value);
+  if (found != available.end()) return static_cast<std::size_t>(found - available.begin());
+  if (contains(coming, value)) not_yet(option, value, available);
+  unknown(option, value, available);
+}
+
+const MethodInfo* find_method(std::string_view name) {
+  for (const MethodInfo& info : method_infos()) {
+    if (info.name == name) return &info;
+  }
+  return nullptr;
+}
+
+Names method_names() {
+  Names names;
+  for (const MethodInfo& info : method_infos()) names.emplace_back(info.name);
+  return names;
+}
+
+bool has_option(const MethodInfo& method, std::string_view key) {
+  return std::any_of(method.options.begin(), method.options.end(), [&](const auto& o) { return o.first == key; });
+}
+
+// --- --set ----------------------------------------------------------------------------------------------------------
+
+bool set_water_key(WaterOverrides& water, const std::string& key, const std::string& value) {
+  const std::string option = "--set " + key;
+  if (key == "size") {
+    const std::vector<float> v = read_floats(option, value, 2, 1e-6, kMaxLength_m);
+    water.size_m = Vec2f{v[0], v[1]};
+  } else if (key == "depth") {
+    water.depth_m = read_float(option, value, 1e-6, kMaxLength_m);
+  } else if (key == "ior") {
+    const float ior = read_float(option, value, -1e6, 1e6);
+    // Compared in float, so that one third as a float is in.
+    if (!(ior >= 1.0f / 3.0f && ior <= 3.0f)) throw UsageError(option + " '" + value + "': out of range; expected 1/3 to 3");
+    water.ior = ior;
+  } else if (key == "absorption") {
+    water.absorption_per_m = read_triple(option, value, 0.0, kMaxAbsorption);
+  } else if (key == "surface") {
+    Names names;
+    for (const SurfaceInfo& info : surface_infos()) names.emplace_back(info.name);
+    water.surface = surface_infos()[read_choice(option, value, names, kComingSurfaces)].kind;
+  } else if (key == "geometry") {
+    read_choice(option, value, {"normals"}, {"displaced"});
+    water.geometry = WaterGeometry::kNormals;
+  } else if (contains(kComingWaterKeys, key)) {
+    throw UsageError(fmt::format("--set '{}': has not come yet, only waves have it; expected {}", key, join(kWaterKeys)));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+[[noreturn]] void unknown_key(const std::string& key, const MethodInfo* method) {
+  std::string known = "a water key (" + join(kWaterKeys) + ")";
+  if (method) {
+    Names keys;
+    for (const auto& option : method->options) keys.push_back(option.first);
+    known += fmt::format(" or an option of {} ({})", method->name, keys.empty() ? "it has none" : join(keys));
+  }
+  throw UsageError(fmt::format("--set '{}': unknown key; expected {}", key, known));
+}
+
+// METHOD.KEY: another method's option is checked and has no effect here.
+void set_method_key(Options& options, const std::string& key, const std::string& value) {
+  const std::size_t dot = key.find('.');
+  const std::string method_name = key.substr(0, dot), method_key = key.substr(dot + 1);
+  const MethodInfo* method = find_method(method_name);
+  if (!method) read_choice("--set " + key + ", method", method_name, method_names(), kComingMethods);
+  if (!has_option(*method, method_key)) unknown_key(key, method);
+  if (method_name == options.frame.method) options.frame.method_options[method_key] = value;
+}
+
+struct KeyValue {
+  std::string key, value;
+};
+
+KeyValue read_key_value(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw UsageError(fmt::format("--set '{}': not understood; expected KEY=VALUE", text));
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+void read_sets(const RawOptions& raw, Options& options) {
+  const MethodInfo* method = find_method(options.frame.method);
+  for (const std::string& text : raw.set) {
+    const KeyValue kv = read_key_value(text);
+    if (kv.key.find('.') != std::string::npos) {
+      set_method_key(options, kv.key, kv.value);
+    } else if (method && has_option(*method, kv.key)) {
+      options.frame.method_options[kv.key] = kv.value;
+    } else if (!set_water_key(options.scene.water, kv.key, kv.value)) {
+      unknown_key(kv.key, method);
+    }
+  }
+}
+
+// --- Single options -------------------------------------------------------------------------------------------------
+
+void read_background(const std::string& text, SceneOptions& scene) {
+  if (text == "environment") {
+    scene.background = BackgroundChoice::kEnvironment;
+  } else if (has_ending(text, ".hdr") || has_ending(text, ".exr")) {
+    not_yet("--background", text, {"R,G,B", "environment"});
+  } else {
+    scene.background = BackgroundChoice::kColor;
+    scene.background_color = read_triple("--background", text, 0.0, kMaxRadiance);
+  }
+}
+
+// The part of --aov's names that is there.
+std::vector<Aov> read_aovs(const std::string& text) {
+  Names names;
+  for (const AovInfo& info : aov_infos()) names.emplace_back(info.name);
+  std::uint32_t asked = 0;
+  for (const std::string& name : split(text, ',')) {
+    asked |= 1u << static_cast<int>(aov_infos()[read_choice("--aov", name, names, {})].aov);
+  }
+  std::vector<Aov> aovs;
+  for (const AovInfo& info : aov_infos()) {
+    if (asked & (1u << static_cast<int>(info.aov))) aovs.push_back(info.aov);
+  }
+  return aovs;
+}
+
+int read_tile(const std::string& text) {
+  const std::int64_t tile = read_integer("--tile", text, 16, 256);
+  if ((tile & (tile - 1)) != 0) {
+    throw UsageError(fmt::format("--tile '{}': not a power of two; expected 16, 32, 64, 128 or 256", text));
+  }
+  return static_cast<int>(tile);
+}
+
+Isa read_isa(const std::string& text) {
+  Names runs;
+  const std::optional<Isa> asked = parse_isa(text);
+  for (const Isa isa : supported_isas()) {
+    if (asked == isa) return isa;
+    runs.emplace_back(isa_name(isa));
+  }
+  if (asked) {
+    throw UsageError(fmt::format("--isa '{}': this machine cannot run it; expected one of: {}", text, join(runs)));
+  }
+  unknown("--isa", text, runs);
+}
+
+int read_count(const char* option, const std::string& text, int low, int high) {
+  return static_cast<int>(read_integer(option, text, low, high));
+}
+
+void read_frame_settings(const RawOptions& raw, FrameSettings& frame) {
+  if (raw.method) frame.method = *raw.method;
+  read_choice("--method", frame.method, method_names(), kComingMethods);
+  if (raw.size) {
+    const SizePx size = read_size("--size", *raw.size);
+    frame.width_px = size.width;
+    frame.height_px = size.height;
+  }
+  if (raw.spp) frame.spp = read_count("--spp", *raw.spp, 1, kMaxSpp);
+  if (raw.threads) frame.threads = read_count("--threads", *raw.threads, 1, kMaxThreads);
+  if (raw.tile) frame.tile_px = read_tile(*raw.tile);
+  frame.isa = raw.isa ? read_isa(*raw.isa) : supported_isas().front();
+  if (raw.anisotropy && read_count("--anisotropy", *raw.anisotropy, 1, 16) > 1) {
+    not_yet("--anisotropy", *raw.anisotropy, {"1"});
+  }
+  if (raw.shadows) read_choice("--shadows", *raw.shadows, {"off"}, {"map", "rays"});
+  if (raw.reflections) read_choice("--reflections", *raw.reflections, {"environment"}, {"scene"});
+  if (raw.exposure) frame.exposure_stops = read_float("--exposure", *raw.exposure, -kMaxExposureStops, kMaxExposureStops);
+  if (raw.tonemap) {
+    frame.tone_map = read_choice("--tonemap", *raw.tonemap, {"none", "aces"}, {}) == 0 ? ToneMap::kNone : ToneMap::kAces;
+  }
+}
+
+void read_run(const RawOptions& raw, Options& options) {
+  if (raw.time) options.time_s = read_number("--time", *raw.time, -kMaxTime_s, kMaxTime_s);
+  if (raw.step) options.step_s = read_number("--step", *raw.step, -kMaxTime_s, kMaxTime_s);
+  if (raw.frames) options.frames = read_frames("--frames", *raw.frames);
+  if (raw.warmup) options.warmup = read_count("--warmup", *raw.warmup, 0, kMaxRuns);
+  if (raw.repeat) options.repeat = read_count("--repeat", *raw.repeat, 1, kMaxRuns);
+  if (options.frames && options.repeat > 1) {
+    throw UsageError("--frames and --repeat exclude each other: one writes a run of frames, the other times the first one;"
+                     " expected one of them");
+  }
+}
+
+void read_outputs(const RawOptions& raw, Options& options) {
+  options.output = raw.output;
+  options.json = raw.json;
+  options.digest = raw.digest;
+  options.quiet = raw.quiet;
+  if (raw.aov) options.aovs = read_aovs(*raw.aov);
+  for (const Aov aov : options.aovs) options.frame.aovs |= 1u << static_cast<int>(aov);
+  if (!options.output) return;
+  const bool png = has_ending(*options.output, ".png");
+  if (!png && !has_ending(*options.output, ".exr")) {
+    throw UsageError(fmt::format("-o '{}': not a picture's name; expected FILE.png or FILE.exr", *options.output));
+  }
+  if (png && raw.aov) {
+    throw UsageError(fmt::format("--aov '{}': a PNG has no layers; expected -o FILE.exr", *raw.aov));
+  }
+  if (options.frames) NamePattern("-o", *options.output);
+  if (options.json && *options.json == *options.output) {
+    throw UsageError(fmt::format("--json '{}': the picture has that name; expected another", *options.json));
+  }
+}
+
+void read_scene(const RawOptions& raw, SceneOptions& scene) {
+  scene.name = raw.scene;
+  if (raw.triangles) {
+    scene.triangles = static_cast<std::uint64_t>(read_integer("--triangles", *raw.triangles, 1, kMaxTriangles));
+  }
+  if (raw.background) read_background(*raw.background, scene);
+}
+
+}  // namespace
+
+bool WaterOverrides::any() const {
+  return size_m || depth_m || ior || absorption_per_m || surface || geometry;
+}
+
+Options read_options(const RawOptions& raw) {
+  if (raw.methods) throw UsageError("--methods: belongs to shoal compare; expected --method NAME");
+  if (raw.reference) throw UsageError("--reference: belongs to shoal compare; expected --method NAME");
+  Options options;
+  read_frame_settings(raw, options.frame);
+  read_run(raw, options);
+  read_scene(raw, options.scene);
+  read_sets(raw, options);
+  options.camera = raw.camera;
+  read_outputs(raw, options);
+  return options;
+}
+
+SceneOptions read_scene_options(const RawOptions& raw) {
+  SceneOptions scene;
+  read_scene(raw, scene);
+  for (const std::string& text : raw.set) {
+    const KeyValue kv = read_key_value(text);
+    if (!set_water_key(scene.water, kv.key, kv.value)) unknown_key(kv.key, nullptr);
+  }
+  return scene;
+}
+
+const std::vector<SurfaceInfo>& surface_infos() {
+  static const std::vector<SurfaceInfo> infos = {
+      {SurfaceKind::kFlat, "flat", "still water: the plane itself"},
+  };
+  return infos;
+}
+
+const char* surface_name(SurfaceKind kind) {
+  for (const SurfaceInfo& info : surface_infos()) {
+    if (info.kind == kind) return info.name;
+  }
+  return "";
+}
+
+const char* geometry_name(WaterGeometry geometry) {
+  return geometry == WaterGeometry::kNormals ? "normals" : "displaced";
+}
+
+const char* tone_map_name(ToneMap tone_map) { return tone_map == ToneMap::kNone ? "none" : "aces"; }
+
+}  // namespace shoal::app

@@ -1,0 +1,77 @@
+// The options of `shoal render` and `shoal probe`: as typed, and as understood (DESIGN.md 5).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/values.h"
+#include "core/vec.h"
+#include "refraction/renderer.h"
+#include "scene/scene.h"
+
+namespace shoal::app {
+
+// As typed, not yet looked at. Not given: empty optional.
+struct RawOptions {
+  std::string scene;
+  std::optional<std::string> output, json;
+  std::optional<std::string> method, methods, reference, size, spp, camera, time, step, frames, warmup, repeat, threads,
+      tile, isa, anisotropy, shadows, reflections, exposure, tonemap, background, aov, triangles;
+  std::vector<std::string> set;  // KEY=VALUE
+  bool digest = false, quiet = false;
+};
+
+// Water keys given with --set: they go over every body of the scene.
+struct WaterOverrides {
+  std::optional<Vec2f> size_m;
+  std::optional<float> depth_m, ior;
+  std::optional<Vec3f> absorption_per_m;
+  std::optional<SurfaceKind> surface;
+  std::optional<WaterGeometry> geometry;
+
+  bool any() const;
+};
+
+enum class BackgroundChoice : std::uint8_t { kScene, kColor, kEnvironment };
+
+// What a scene is made from.
+struct SceneOptions {
+  std::string name;                        // a file or a built-in scene
+  std::optional<std::uint64_t> triangles;  // of a built-in one
+  WaterOverrides water;
+  BackgroundChoice background = BackgroundChoice::kScene;
+  Vec3f background_color{0, 0, 0};  // linear, kColor
+};
+
+struct Options {
+  SceneOptions scene;
+  FrameSettings frame;
+  std::optional<std::string> camera;
+  double time_s = 0, step_s = 1.0 / 60.0;
+  std::optional<FrameRange> frames;
+  int warmup = 3, repeat = 1;
+  std::vector<Aov> aovs;  // in the order of aov_infos()
+  std::optional<std::string> output, json;
+  bool digest = false, quiet = false;
+};
+
+// Throws UsageError for everything that is unknown, out of range, of another command, or has not come yet.
+Options read_options(const RawOptions& raw);
+// Of read_options, what makes the scene: for commands without a frame.
+SceneOptions read_scene_options(const RawOptions& raw);
+
+// The names of a surface kind and of a geometry, as `--set` takes them.
+const char* surface_name(SurfaceKind kind);
+const char* geometry_name(WaterGeometry geometry);
+const char* tone_map_name(ToneMap tone_map);
+
+struct SurfaceInfo {
+  SurfaceKind kind;
+  const char* name;
+  const char* description;
+};
+const std::vector<SurfaceInfo>& surface_infos();
+
+}  // namespace shoal::app

@@ -1,0 +1,49 @@
+// What the command leaves behind: files that appear whole or not at all, and checked standard output.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace shoal::app {
+
+// A file written beside its place and renamed into it.
+//
+// Until commit() the old file, if there was one, is as it was; without commit() nothing is left. A signal that ends the
+// program (interrupt, hang-up, terminate) removes what was begun, once remove_partial_outputs_on_signals() was called.
+// A path that is there and is no regular file (a device, a pipe) is written to directly.
+class OutputFile {
+ public:
+  // Opens; throws Error where that is not possible.
+  explicit OutputFile(const std::string& path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  std::FILE* stream() { return stream_; }
+  // Everything to the disk; throws Error where a byte of it could not be written. No writing afterwards.
+  void finish();
+  // Takes the old file's place. After finish().
+  void commit();
+
+ private:
+  std::string path_;       // as the user wrote it, for messages
+  std::string target_;     // links resolved
+  std::string temporary_;  // empty: written directly
+  int slot_ = -1;          // in the list of files that a signal removes
+  std::FILE* stream_ = nullptr;
+};
+
+// Throws Error where `path` could not be written now, and leaves nothing: a long render finds that out before it starts.
+void check_writable(const std::string& path);
+
+// Writes a whole text to a file, or to standard output where `path` is "-".
+void write_text(const std::string& path, std::string_view text);
+
+// Throws Error where standard output is closed or full.
+void write_stdout(std::string_view text);
+
+// Also lets writes beyond a file size limit or into a closed pipe fail as errors, in one line.
+void remove_partial_outputs_on_signals();
+
+}  // namespace shoal::app
