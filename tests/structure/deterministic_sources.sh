@@ -1,20 +1,17 @@
 #!/bin/bash
 # Nothing whose result depends on the library, the compiler or the run is named in code that reaches a pixel.
 set -uo pipefail
+code=$(find core raster water refraction scene \( -name '*.h' -o -name '*.cpp' \) | grep -vE '^scene/(gltf|images|export_glb)' |
+  LC_ALL=C sort | xargs awk '{ sub(/\/\/.*/, ""); print FILENAME ":" FNR ": " $0 }')
+if (( $(wc -l <<<"$code") < 1000 )); then echo "found too little to look at"; exit 1; fi
 status=0
-files=$(find core raster water refraction scene -name '*.h' -o -name '*.cpp' | grep -vE '^scene/(gltf|images|export_glb)' | LC_ALL=C sort)
 
 # forbid WHY REGEX: comments do not count.
 forbid() {
-  local file hits
-  for file in $files; do
-    hits=$(sed -E 's,//.*$,,' "$file" | grep -nE "$2")
-    if [[ -n $hits ]]; then
-      while IFS= read -r hit; do echo "$file:$hit"; done <<<"$hits"
-      echo "  $1"
-      status=1
-    fi
-  done
+  if grep -E "$2" <<<"$code"; then
+    echo "  $1"
+    status=1
+  fi
 }
 
 functions='a?sinh?|a?cosh?|a?tanh?|atan2|exp2?|expm1|log(2|10|1p|b)?|pow|cbrt|hypot|fmod|remainder|remquo|fma|lerp|erfc?|[lt]gamma'

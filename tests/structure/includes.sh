@@ -2,48 +2,47 @@
 # Who includes whom: core <- raster; core <- water; raster, water <- scene; all those <- refraction <- compare <- app.
 # Third-party headers stay at the edges, intrinsics in core/wide.
 set -uo pipefail
-status=0
+
+# Lines "file header kind" of every include, kind q (quoted) or s (system).
+includes() {
+  find core raster water scene refraction compare app \( -name '*.h' -o -name '*.cpp' -o -name '*.def' \) -print0 |
+    xargs -0 awk '/^[ \t]*#[ \t]*include[ \t]*["<]/ {
+      kind = /</ ? "s" : "q"
+      sub(/^[^"<]*["<]/, "")
+      sub(/[">].*$/, "")
+      print FILENAME, $0, kind
+    }' | LC_ALL=C sort
+}
+
+declare -A sees=(
+  [core]="core" [raster]="core raster" [water]="core water" [scene]="core raster water scene"
+  [refraction]="core raster water scene refraction" [compare]="core raster water scene refraction compare"
+  [app]="core raster water scene refraction compare app"
+)
+file_reader='^scene/(gltf|images|export_glb)[a-z_]*\.(h|cpp)$'
+status=0 seen=0
 complain() { echo "$*"; status=1; }
 
-sources() { find "$@" -name '*.h' -o -name '*.cpp' -o -name '*.def' | LC_ALL=C sort; }
-
-# room NAME ALLOWED_ROOMS: quoted includes are paths from the root, into the rooms that NAME sees.
-room() {
-  local file line path
-  while IFS= read -r file; do
-    while IFS= read -r line; do
-      path=${line#*\"}
-      path=${path%%\"*}
-      [[ -f $path ]] || complain "$file: includes \"$path\"; expected a path from the root"
-      [[ " $2 " == *" ${path%%/*} "* ]] || complain "$file: includes \"$path\"; $1 sees only: $2"
-    done < <(grep -E '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' "$file")
-  done < <(sources "$1")
-}
-room core "core"
-room raster "core raster"
-room water "core water"
-room scene "core raster water scene"
-room refraction "core raster water scene refraction"
-room compare "core raster water scene refraction compare"
-room app "core raster water scene refraction compare app"
-
-# The raster path builds from a compiler alone: neither file readers nor libraries.
-is_edge() { [[ $1 =~ ^(compare|app)/ || $1 =~ ^scene/(gltf|images|export_glb)[a-z_]*\.(h|cpp)$ ]]; }
-for file in $(sources core raster water scene refraction); do
-  is_edge "$file" && continue
-  if grep -HnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"scene/(gltf|images|export_glb)' "$file"; then
-    complain "$file: reads files; only compare and app may"
-  fi
-  while IFS= read -r header; do
+while read -r file header kind; do
+  seen=$((seen + 1))
+  room=${file%%/*}
+  edge=no
+  if [[ $room == compare || $room == app || $file =~ $file_reader ]]; then edge=yes; fi
+  if [[ $kind == q ]]; then
+    [[ -f $header ]] || complain "$file: includes \"$header\"; expected a path from the root"
+    [[ " ${sees[$room]} " == *" ${header%%/*} "* ]] || complain "$file: includes \"$header\"; $room sees only: ${sees[$room]}"
+    if [[ $edge == no && $header =~ $file_reader ]]; then
+      complain "$file: includes \"$header\"; only the edges read files"
+    fi
+  else
     case $file:$header in
       core/wide/*:immintrin.h | core/wide/*:arm_neon.h) ;;
       core/float_mode.cpp:immintrin.h | core/float_mode.cpp:xmmintrin.h) ;;
       core/digest.cpp:xxhash.h | core/thread_pool.cpp:sched.h) ;;
-      *:*[./]*) complain "$file: includes <$header>; expected the standard library only" ;;
+      *:*mmintrin.h | *:immintrin.h | *:arm_neon.h) complain "$file: includes <$header>; intrinsics belong in core/wide" ;;
+      *:*[./]*) [[ $edge == yes ]] || complain "$file: includes <$header>; expected the standard library only" ;;
     esac
-  done < <(sed -nE 's/^[[:space:]]*#[[:space:]]*include[[:space:]]*<([^>]+)>.*/\1/p' "$file")
-done
-for file in $(sources compare app); do
-  if grep -HnE '<(.mmintrin|immintrin|arm_neon)\.h>' "$file"; then complain "$file: intrinsics belong in core/wide"; fi
-done
+  fi
+done < <(includes)
+if (( seen < 20 )); then complain "found $seen includes only"; fi
 exit $status
