@@ -45,8 +45,9 @@ SHOAL_INLINE RayDifferential<F> pixel_ray_differential(const View& view) {
 //   p0       first corner, world;  e1, e2  the other corners less p0
 // Returns the hit; see TriangleHit for what is not valid.
 // Source: Moeller and Trumbore (1997), without culling or tests of u, v.
-// Error: of the point p0 + e1 u + e2 v against double: 4e-6 x (its distance from the origin + the edges' lengths) over
-//        the sine of the angle between ray and plane (tests/refraction/test_exact_ray.cpp).
+// Error: of the point p0 + e1 u + e2 v, of e1 u and of e2 v: 3e-7 x (distance of p0 from the ray's origin + that of the
+//        origin from the world's + |e1| + |e2|) over (cosine between ray and normal x sine of the corner at p0), for
+//        |u|, |v| < 5 (tests/refraction/test_exact_ray.cpp).
 template <class F>
 SHOAL_INLINE TriangleHit<F> intersect_triangle(Ray<F> ray, Vec3<F> p0, Vec3<F> e1, Vec3<F> e2) {
   const Vec3<F> p = cross(ray.direction_world, e2);
@@ -67,7 +68,8 @@ SHOAL_INLINE TriangleHit<F> intersect_triangle(Ray<F> ray, Vec3<F> p0, Vec3<F> e
 //   as intersect_triangle, with the ray's differential and the hit itself
 // Returns 0 where the hit is not valid.
 // Source: Igehy (1999), transfer to the hit; here in barycentrics.
-// Error: relative 1e-4 of the largest of the four for rays that are not within 1 degree of the plane (test_exact_ray).
+// Error: 6e-5 of the largest of the four, over (cosine between ray and normal squared x sine of the corner at p0)
+//        (test_exact_ray.cpp).
 template <class F>
 SHOAL_INLINE TriangleHitDerivatives<F> hit_derivatives(Ray<F> ray, RayDifferential<F> differential, Vec3<F> p0,
                                                        Vec3<F> e1, Vec3<F> e2, TriangleHit<F> hit) {

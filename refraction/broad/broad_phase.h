@@ -110,8 +110,8 @@ SHOAL_INLINE F far_distance(const BroadPhase& bp, Vec3<F> position_world) {
 // Returns the virtual position, metres, world space; on the eye's side the extension above. ior 1 returns the argument.
 // Source: Steel (2024), horizontal-preserving virtual space.
 // Differs: exact path (path_solver.h) for any plane, both sides and orthographic views.
-// Error: of the distance along the normal, as virtual_distance, plus 4 roundings of the coordinates; along the plane,
-//        one rounding (none when the normal is an axis). tests/refraction/test_broad_phase.cpp.
+// Error: 4e-7 of the size of the coordinates (point, eye and image together); nothing along a plane whose normal is an
+//        axis (tests/refraction/test_broad_phase.cpp).
 template <class F>
 SHOAL_INLINE Vec3<F> virtual_position(const BroadPhase& bp, Vec3<F> position_world) {
   if (bp.path.identity) return position_world;
