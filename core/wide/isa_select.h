@@ -36,3 +36,6 @@
 // Everything that kernels include and that is not in SHOAL_ISA_NS must never be emitted out of line, or the linker
 // could pick the AVX-512 copy of it for all.
 #define SHOAL_INLINE inline __attribute__((always_inline))
+
+// The same for a lambda: [&](...) SHOAL_LAMBDA { ... }.
+#define SHOAL_LAMBDA __attribute__((always_inline))
