@@ -1,0 +1,117 @@
+// What grows round `pool`: pots, hedges, cypresses, and the hills behind.
+#include <cmath>
+
+#include "scene/procedural/pool_parts.h"
+#include "scene/procedural/textures.h"
+
+namespace shoal::pool {
+namespace {
+
+// Three-dimensional roughness from two lattices: a function of the place alone, so that touching faces agree.
+float rough(Vec3f p, float scale, int octaves, std::uint32_t seed) {
+  return 0.5f * (fractal_noise(p.x * scale + 3.1f * p.y, p.z * scale - 2.3f * p.y, 0, octaves, seed) +
+                 fractal_noise(p.y * scale + 1.7f * p.x, p.x * scale + 2.9f * p.z, 0, octaves, seed + 7));
+}
+
+// Leaves are brighter outside and above, darker in the hollows.
+Vec3f leaf_shade(float bump, float upward) { return Vec3f{1, 1, 1} * (0.55f + 0.45f * clamp01(bump * 1.3f) + 0.10f * upward); }
+
+void leafy_ball(PartBuilder& b, int material, int level, Vec3f centre, float radius) {
+  b.surface(
+      material, 2 * level + 2, level + 2,
+      [&](float u, float v) {
+        const Vec2f a = turn(1.0f - u), e = turn(0.5f * v - 0.25f);
+        const float ring = v == 0.0f || v == 1.0f ? 0.0f : e.x;
+        const Vec3f d{ring * a.x, v == 0.0f ? -1.0f : (v == 1.0f ? 1.0f : e.y), ring * a.y};
+        const float bump = rough(d * radius + centre, 9.0f, 3, 201);
+        return SurfacePoint{centre + d * (radius * (0.90f + 0.20f * bump)), d, {u * 5.0f * radius, v * 2.5f * radius},
+                            leaf_shade(bump, d.y)};
+      },
+      Normals::kSmooth, Poles::kBoth);
+}
+
+}  // namespace
+
+void pot(PartBuilder& b, int level) {
+  const auto profile = [](float t) {
+    if (t >= 1.0f) return Vec2f{0.0f, 0.52f};  // the soil
+    if (t > 0.85f) return Vec2f{mix(0.27f, 0.24f, (t - 0.85f) / 0.15f), mix(0.58f, 0.52f, (t - 0.85f) / 0.15f)};
+    if (t > 0.6f) return Vec2f{0.31f, mix(0.50f, 0.58f, (t - 0.6f) / 0.25f)};
+    return Vec2f{mix(0.19f, 0.285f, t / 0.6f), mix(0.0f, 0.50f, t / 0.6f)};
+  };
+  b.lathe(kTerracotta, level + 4, level < 3 ? 2 : 4 * level, {0, 0, 0}, profile, Poles::kV1, {1, 1});
+  leafy_ball(b, kFoliage, level + 1, {0, 0.92f, 0}, 0.44f);
+}
+
+void hedges(PartBuilder& b, int level) {
+  // Clipped boxes beyond the garden walls: a vault over u, from one foot to the other, along the wall.
+  for (const float side : {-1.0f, 1.0f}) {
+    const Vec3f foot{side * 11.2f, -0.2f, -8.6f};
+    b.surface(
+        kFoliage, 2 * level + 2, 6 * level,
+        [&](float u, float v) {
+          // The profile is a box with round shoulders; v runs along z.
+          const float across = 2.0f * clamp01(u) - 1.0f, a = std::fabs(across);
+          const float x = (a > 0.5f ? 0.55f : 1.1f * a) * (across < 0 ? -1.0f : 1.0f);
+          const float y = a > 0.5f ? 1.75f * (1.0f - smooth_step(0.5f, 1.0f, a)) : 1.75f;
+          Vec3f p = foot + Vec3f{x, y, mix(0.0f, 15.4f, v)};
+          const float bump = rough(p, 4.0f, 4, 211);
+          p = p + Vec3f{0.22f * (bump - 0.5f) * (across < 0 ? -1.0f : 1.0f), 0.30f * (bump - 0.5f), 0};
+          return SurfacePoint{p, {0, 1, 0}, {across * 2.2f, v * 15.4f}, leaf_shade(bump, a < 0.5f ? 0.5f : -0.5f)};
+        },
+        Normals::kSmooth);
+  }
+}
+
+void cypress(PartBuilder& b, int level) {
+  constexpr float kHeight = 7.4f, kWidth = 0.78f;
+  b.surface(
+      kCypress, level + 4, 3 * level + 2,
+      [&](float u, float v) {
+        const Vec2f c = turn(1.0f - u);
+        // A flame: full at a third of its height.
+        const float t = v, body = std::sqrt(std::max(0.0f, t * (1.0f - t))) * (1.45f - 0.75f * t) * 1.6f;
+        const Vec3f on{c.x * kWidth * body, t * kHeight, c.y * kWidth * body};
+        const float bump = rough({c.x, t * kHeight * 0.7f, c.y}, 2.6f, 4, 221);
+        const Vec3f p{on.x * (0.70f + 0.6f * bump), on.y, on.z * (0.70f + 0.6f * bump)};
+        return SurfacePoint{p, {0, 1, 0}, {u * 4.0f, -t * kHeight}, leaf_shade(bump, 0.0f)};
+      },
+      Normals::kSmooth, Poles::kBoth);
+}
+
+void garden_walls(PartBuilder& b, int level) {
+  for (const float side : {-1.0f, 1.0f}) {
+    const float x0 = std::min(side * kDeckX, side * (kDeckX + 0.3f)), x1 = x0 + 0.3f;
+    b.box(kStucco, level, {x0, -0.4f, kDeckBack}, {x1, 0.95f, kDeckFront}, 3.0f);
+    if (level > 1) b.box(kCoping, 1, {x0 - 0.05f, 0.95f, kDeckBack}, {x1 + 0.05f, 1.02f, kDeckFront + 0.05f}, 0.6f);
+  }
+}
+
+void hills(PartBuilder& b, int level) {
+  constexpr float kNear = 6.8f, kFar = 420.0f;
+  const int rings = std::max(1, static_cast<int>(std::sqrt(static_cast<float>(level) * 0.18f)));
+  const int around = std::max(4, level / rings);
+  b.surface(
+      kGrass, around, rings,
+      [&](float u, float v) {
+        const Vec2f c = turn(u);
+        // Rings grow with their distance: about as many for the garden as for the horizon.
+        const float w = v * v, r = kNear + (kFar - kNear) * (0.10f * v + 0.90f * w * w);
+        const Vec3f flat{c.x * r, 0, c.y * r};
+        const float ridge = fractal_noise(flat.x * 0.012f + 40.0f, flat.z * 0.012f + 40.0f, 0, 5, 231);
+        const float knoll = fractal_noise(flat.x * 0.05f + 9.0f, flat.z * 0.05f + 9.0f, 0, 3, 232);
+        // Higher behind the house than towards the viewer's side.
+        const float behind = 0.55f + 0.45f * smooth_step(0.6f, -0.8f, c.y);
+        const float rise = smooth_step(22.0f, 190.0f, r), far_rise = smooth_step(150.0f, kFar, r);
+        const float y = -0.06f + behind * rise * (4.0f + 30.0f * ridge * ridge) + behind * far_rise * 62.0f * ridge +
+                        1.2f * (knoll - 0.5f) * smooth_step(16.0f, 40.0f, r);
+        // Lawn, then dry hills, then blue with the air between.
+        const Vec3f lawn{0.95f, 1.0f, 0.85f}, dry{1.20f, 1.02f, 0.80f}, wood{0.42f, 0.58f, 0.45f};
+        Vec3f tint = mix(lawn, mix(dry, wood, smooth_step(0.42f, 0.60f, knoll)), smooth_step(20.0f, 60.0f, r));
+        tint = mix(tint, {1.10f, 1.55f, 3.2f}, 0.80f * smooth_step(50.0f, 400.0f, r));
+        return SurfacePoint{{flat.x, y, flat.z}, {0, 1, 0}, {flat.x / 4.0f, flat.z / 4.0f}, tint};
+      },
+      Normals::kSmooth);
+}
+
+}  // namespace shoal::pool

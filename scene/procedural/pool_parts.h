@@ -1,0 +1,53 @@
+// The pieces of the `pool` scene. Each part adds itself to a builder at a level of detail, 1 the coarsest; more levels
+// never mean fewer triangles.
+#pragma once
+
+#include "scene/procedural/mesh_builder.h"
+
+namespace shoal::pool {
+
+// Layout, metres. The water is y = 0; its basin is centred on the origin, shallow at -x.
+inline constexpr float kHalfX = 5.0f, kHalfZ = 2.5f;
+inline constexpr float kShallow = 1.2f, kDeep = 2.2f;
+inline constexpr float kCopingTop = 0.12f, kDeckY = 0.10f, kBandBottom = -0.15f;
+inline constexpr float kCopingOut = 0.36f;
+inline constexpr float kDeckX = 10.0f, kDeckBack = -8.6f, kDeckFront = 6.5f;
+inline constexpr float kArcadeFront = -5.9f, kArcadeBack = -6.3f, kBay = 3.0f;
+inline constexpr int kBays = 6;
+
+inline float floor_y(float x) { return -mix(kShallow, kDeep, (x + kHalfX) / (2 * kHalfX)); }
+
+enum Mat : int {
+  kTiles, kLane, kBand, kCoping, kPavers, kStucco, kOchre, kRoof, kMarble, kWood, kShutter, kGlass, kChrome, kBall, kRing,
+  kDiveRing, kCushion, kAwning, kTerracotta, kFoliage, kCypress, kGrass, kTrunk, kMatCount
+};
+
+Materials make_materials();
+
+using PartFn = void (*)(PartBuilder& b, int level);
+
+void basin(PartBuilder& b, int level);
+void steps(PartBuilder& b, int level);
+void coping(PartBuilder& b, int level);
+void deck(PartBuilder& b, int level);
+
+void ladder(PartBuilder& b, int level);
+template <int kWhich>
+void ball(PartBuilder& b, int level);
+template <int kWhich>
+void ring(PartBuilder& b, int level);
+void lounger(PartBuilder& b, int level);  // at the origin, its foot towards +z
+void parasol(PartBuilder& b, int level);  // at the origin
+
+void column(PartBuilder& b, int level);  // at the origin, its top at the arches' spring
+void arcade(PartBuilder& b, int level);
+void house(PartBuilder& b, int level);
+void roof(PartBuilder& b, int level);
+void garden_walls(PartBuilder& b, int level);
+
+void pot(PartBuilder& b, int level);  // with a clipped ball of box; at the origin
+void hedges(PartBuilder& b, int level);
+void cypress(PartBuilder& b, int level);  // at the origin
+void hills(PartBuilder& b, int level);    // level is about the quads
+
+}  // namespace shoal::pool

@@ -1,0 +1,61 @@
+#include <cmath>
+
+#include "scene/procedural/mesh_builder.h"
+#include "scene/procedural/scenes.h"
+
+namespace shoal {
+namespace {
+
+Mat4 look_along(Vec3f forward, Vec3f at) {
+  const Vec3f z = normalize(-forward), x = normalize(cross(Vec3f{0, 1, 0}, z)), y = cross(z, x);
+  return {{{x.x, y.x, z.x, at.x}, {x.y, y.y, z.y, at.y}, {x.z, y.z, z.z, at.z}, {0, 0, 0, 1}}};
+}
+
+Node make_node(const char* name, const Mat4& world_from_local) {
+  Node node;
+  node.name = name;
+  node.world_from_local = world_from_local;
+  return node;
+}
+
+}  // namespace
+
+void add_camera(Scene& scene, const char* name, Vec3f at, Vec3f target, float yfov) {
+  CameraSpec camera;
+  camera.yfov = yfov;
+  scene.cameras.push_back(camera);
+  Node node = make_node(name, look_along(target - at, at));
+  node.camera = static_cast<std::int32_t>(scene.cameras.size()) - 1;
+  scene.nodes.push_back(std::move(node));
+}
+
+void add_water(Scene& scene, const char* name, Vec3f at, const WaterSpec& spec) {
+  scene.waters.push_back(spec);
+  Mat4 place = kIdentity4;
+  place.m[0][3] = at.x;
+  place.m[1][3] = at.y;
+  place.m[2][3] = at.z;
+  Node node = make_node(name, place);
+  node.water = static_cast<std::int32_t>(scene.waters.size()) - 1;
+  scene.nodes.push_back(std::move(node));
+}
+
+void add_sun(Scene& scene, Vec3f to_sun, Vec3f color, float intensity) {
+  scene.lights.push_back({color, intensity});
+  Node node = make_node("sun", look_along(-to_sun, {0, 0, 0}));
+  node.light = static_cast<std::int32_t>(scene.lights.size()) - 1;
+  scene.nodes.push_back(std::move(node));
+  scene.has_background = true;
+  scene.background.kind = Background::Kind::kSky;
+  scene.background.to_sun_world = normalize(to_sun);
+  scene.background.sun = color * intensity;
+}
+
+const std::vector<ProceduralScene>& procedural_scenes() {
+  static const std::vector<ProceduralScene> scenes = {
+      {"pool", "a villa's swimming pool: tiles, steps, ladder, balls and rings, half and fully under water", make_pool, 128000},
+      {"box", "a small open basin with boxes and balls through the water, for tests", make_box, 1000}};
+  return scenes;
+}
+
+}  // namespace shoal

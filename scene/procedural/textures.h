@@ -1,0 +1,35 @@
+// Textures of the procedural scenes: sRGB, 8 bits, from integer hashes, the same bytes everywhere.
+#pragma once
+
+#include <cstdint>
+
+#include "raster/texture.h"
+
+namespace shoal {
+
+// Integer hash (PCG's output permutation) of a lattice point.
+std::uint32_t hash_lattice(std::int32_t x, std::int32_t y, std::uint32_t seed);
+
+// Value noise in [0, 1], smooth; repeats every `period` lattice cells (0: never).
+float value_noise(float x, float y, std::int32_t period, std::uint32_t seed);
+
+// Octaves of it, each twice as fine and half as strong; in [0, 1].
+float fractal_noise(float x, float y, std::int32_t period, int octaves, std::uint32_t seed);
+
+// All of these repeat in both directions. A texture's width on the surface is in the comment.
+Texture make_pool_tiles();       // 1.6 m: 16 x 16 turquoise mosaic tiles
+Texture make_lane_tiles();       // 1.6 m: the same tiles in navy
+Texture make_waterline_tiles();  // 0.5 m wide, 0.25 m high: a frieze of small tiles
+Texture make_pavers();           // 2.4 m: 4 x 4 travertine slabs, joints staggered
+Texture make_coping();           // 0.6 m along u: a pale stone
+Texture make_stucco();           // 3 m, near white: tint by the material's colour
+Texture make_roof_tiles();       // 1.2 m: clay, courses along v
+Texture make_planks();           // 1.2 m: 8 boards along u
+Texture make_foliage();          // 1 m of clipped leaves
+Texture make_grass();            // 4 m of lawn
+Texture make_beach_ball();       // once around u: six gores, caps at v = 0 and 1
+Texture make_ring_stripes();     // once around u: eight stripes
+Texture make_awning();           // once around u: sixteen stripes
+Texture make_ripple_marble();    // 1.2 m: veined white stone
+
+}  // namespace shoal
