@@ -38,7 +38,7 @@ Json body_json(const WaterBody& body) {
 std::uint64_t count_vertices(const Scene& scene) {
   std::uint64_t count = 0;
   for (const Node& node : scene.nodes) {
-    if (node.mesh == kNone) continue;
+    if (node.mesh == kNoIndex) continue;
     for (const MeshPrimitive& p : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) count += p.positions.size();
   }
   return count;

@@ -19,7 +19,10 @@ int run_scene(const RawOptions& raw) {
   }
   check_writable(*raw.output);
   const Scene scene = read_scene(options.name, options.triangles);
-  export_glb(scene, *raw.output);
+  OutputFile file(*raw.output);
+  write_glb(scene, file.stream(), *raw.output);
+  file.finish();
+  file.commit();
   return 0;
 }
 

@@ -77,7 +77,7 @@ void warn(const std::string& file, const std::string& what) {
 std::uint64_t count_triangles(const Scene& scene) {
   std::uint64_t count = 0;
   for (const Node& node : scene.nodes) {
-    if (node.mesh == kNone) continue;
+    if (node.mesh == kNoIndex) continue;
     for (const MeshPrimitive& p : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) count += p.indices.size() / 3;
   }
   return count;

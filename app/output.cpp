@@ -49,8 +49,10 @@ extern "C" void remove_temporaries_and_die(int signal_number) {
   std::raise(signal_number);
 }
 
+//   error  errno, or 0 where it is not known any more: the stream remembers only that a write failed
 [[noreturn]] void fail(const std::string& path, int error) {
-  throw Error(fmt::format("{}: cannot be written ({}); expected a writable file", path, std::strerror(error)));
+  throw Error(fmt::format("{}: cannot be written ({}); expected a writable file", path,
+                          error ? std::strerror(error) : "a write failed, the disk may be full"));
 }
 
 std::string directory_of(const std::string& path) {
@@ -128,7 +130,7 @@ void OutputFile::finish() {
   const bool closed = std::fclose(stream_) == 0;
   if (written && !closed) error = errno;
   stream_ = nullptr;
-  if (!written || !closed) fail(path_, error ? error : EIO);
+  if (!written || !closed) fail(path_, error);
 }
 
 void OutputFile::commit() {

@@ -55,7 +55,7 @@ class Writer {
 
 void write_png_bytes(std::FILE* file, const std::string& path, int width, int height, const std::uint8_t* rgb) {
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
+  // Untagged: that is sRGB to every reader, and the tag would bring a text chunk of the library's along.
   Writer writer(file, path, "png", spec);
   writer.rows(0, height, rgb);
   writer.close();
