@@ -63,11 +63,11 @@ struct NormalMatrix {
 };
 
 bool is_outline(const Scene& scene, const Node& node) {
-  return node.water != kNone && !scene.waters[static_cast<std::size_t>(node.water)].has_size;
+  return node.water != kNoIndex && !scene.waters[static_cast<std::size_t>(node.water)].has_size;
 }
 
 const Mesh* mesh_of(const Scene& scene, const Node& node) {
-  return node.mesh == kNone ? nullptr : &scene.meshes[static_cast<std::size_t>(node.mesh)];
+  return node.mesh == kNoIndex ? nullptr : &scene.meshes[static_cast<std::size_t>(node.mesh)];
 }
 
 // --- Geometry -------------------------------------------------------------------------------------------------------
@@ -298,14 +298,16 @@ bool is_lit(const Scene& scene) {
   return false;
 }
 
-// Mean radiance of a half of the background, weighted by the cosine to the vertical: irradiance over pi. The sky's
-// ramp from horizon to zenith is fitted: 0.45 of the one and 0.55 of the other.
+// Mean radiance of a half of the background, weighted by the cosine to the vertical: irradiance over pi. Of the sky of
+// raster/sky.h that is 2 (0.8 B(2, 4) + 0.2 B(2, 17)) of the way from zenith to horizon; the glow round the sun, under
+// 0.002 of it, and the haze's last degrees below the horizon are left out.
 void ambient_from_background(Lighting& lighting) {
   const Background& b = lighting.background;
   if (b.kind == Background::Kind::kColor) {
     lighting.ambient_up = lighting.ambient_down = b.color;
   } else {
-    lighting.ambient_up = b.horizon * 0.45f + b.zenith * 0.55f;
+    constexpr float kHorizonShare = 2.0f * (0.8f / 20.0f + 0.2f / 306.0f);
+    lighting.ambient_up = b.zenith + (b.horizon - b.zenith) * kHorizonShare;
     lighting.ambient_down = b.ground;
   }
 }
@@ -314,7 +316,7 @@ Lighting make_lighting(const Scene& scene) {
   Lighting lighting;
   const bool lit = is_lit(scene);
   for (const Node& node : scene.nodes) {
-    if (node.light == kNone) continue;
+    if (node.light == kNoIndex) continue;
     const LightSpec& spec = scene.lights[static_cast<std::size_t>(node.light)];
     const Vec3f direction = normalize_or_zero(-column(node.world_from_local, 2));
     if (is_zero(direction)) fail(scene, node, "the light's transform is degenerate; expected a direction");
@@ -344,8 +346,8 @@ RenderScene build_render_scene(const Scene& scene) {
   find_bounds(out.geometry, out.bounds_min_world, out.bounds_max_world);
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
     out.node_names.push_back(scene.nodes[n].name);
-    if (scene.nodes[n].water != kNone) out.waters.push_back(place_water(scene, n, out.geometry));
-    if (scene.nodes[n].camera != kNone) out.cameras.push_back(place_camera(scene, n));
+    if (scene.nodes[n].water != kNoIndex) out.waters.push_back(place_water(scene, n, out.geometry));
+    if (scene.nodes[n].camera != kNoIndex) out.cameras.push_back(place_camera(scene, n));
   }
   if (out.cameras.empty()) out.cameras.push_back(framing_camera(out.bounds_min_world, out.bounds_max_world));
   return out;

@@ -6,7 +6,7 @@
 namespace shoal {
 namespace {
 
-enum Mat : int { kBasin, kRed, kYellow, kGreen, kBall, kMatCount };
+enum Mat : int { kBasin, kRed, kYellow, kGreen, kBall, kBoard, kMatCount };
 constexpr float kHalfX = 1.0f, kHalfZ = 0.7f, kDepth = 0.8f, kRim = 0.15f;
 
 void basin(PartBuilder& b, int n) {
@@ -40,18 +40,25 @@ void balls(PartBuilder& b, int n) {
   }
 }
 
+// A slanting board, seen from both sides. Its grid is cut finely enough to take what the other parts leave over.
+void board(PartBuilder& b, int quads) {
+  int rows = 1;
+  while ((rows + 1) * (rows + 1) * 2 <= quads) ++rows;
+  b.quad(kBoard, quads / rows, rows, {-0.1f, -0.45f, -0.55f}, {0.75f, 0.65f, 0}, {0, 0, 0.22f}, 0.8f);
+}
+
 using PartFn = void (*)(PartBuilder&, int);
 struct Part {
   const char* name;
   PartFn add;
-  std::uint64_t weight;  // of 100
+  std::uint64_t percent;
 };
-constexpr Part kParts[] = {{"basin", basin, 30}, {"boxes", boxes, 30}, {"balls", balls, 100}};
+constexpr Part kParts[] = {{"basin", basin, 30}, {"boxes", boxes, 30}, {"balls", balls, 35}, {"board", board, 100}};
 
 // The finest level within the budget.
 int finest_level(PartFn add, std::uint64_t budget) {
   int level = 1;
-  for (int step = 1 << 12; step > 0; step /= 2) {
+  for (int step = 1 << 23; step > 0; step /= 2) {
     PartBuilder b(nullptr);
     add(b, level + step);
     if (b.triangles() <= budget) level += step;
@@ -72,13 +79,15 @@ Scene make_box(std::uint64_t triangles) {
   scene.materials.textures = {make_pool_tiles(), make_beach_ball()};
   scene.materials.materials[kBasin].base_color_texture = 0;
   scene.materials.materials[kBall].base_color_texture = 1;
+  scene.materials.materials[kBoard].base_color = {0.15f, 0.30f, 0.70f, 1};
+  scene.materials.materials[kBoard].double_sided = true;
   scene.materials.materials[kRed].base_color = {0.80f, 0.10f, 0.08f, 1};
   scene.materials.materials[kYellow].base_color = {0.90f, 0.62f, 0.08f, 1};
   scene.materials.materials[kGreen].base_color = {0.15f, 0.55f, 0.20f, 1};
 
   std::uint64_t left = triangles;
   for (const Part& part : kParts) {
-    const std::uint64_t budget = part.weight == 100 ? left : triangles * part.weight / 100;
+    const std::uint64_t budget = std::min(left, triangles * part.percent / 100);
     Mesh mesh;
     mesh.name = part.name;
     PartBuilder builder(&mesh);

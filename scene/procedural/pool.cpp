@@ -43,7 +43,7 @@ struct Part {
 constexpr Part kParts[] = {
     {"basin", basin, at(kOnce), 20, true},          {"deck", deck, at(kOnce), 12, true},
     {"steps", steps, at(kOnce), 4, true},           {"ball_1", ball<0>, at(kOnce), 3, true},
-    {"ring_1", ring<0>, at(kOnce), 3.5, true},      {"coping", coping, at(kOnce), 2, false},
+    {"ring_1", ring<0>, at(kOnce), 3.5, false},      {"coping", coping, at(kOnce), 2, false},
     {"ring_2", ring<1>, at(kOnce), 3.5, false},     {"ball_3", ball<2>, at(kOnce), 2.5, false},
     {"column", column, at(kColumnsAt), 7, false},   {"arcade", arcade, at(kOnce), 4, false},
     {"roof", roof, at(kOnce), 8, false},            {"house", house, at(kOnce), 2, false},

@@ -59,9 +59,9 @@ Tile find_tile(float x, float y, float stagger = 0.0f) {
 }
 
 // Glazed tiles: each its own shade between three colours, darker towards its rim, in pale grout.
-Texture make_mosaic(const std::array<Vec3f, 3>& shades, Vec3f grout, std::uint32_t seed) {
+Texture make_mosaic(int size, const std::array<Vec3f, 3>& shades, Vec3f grout, std::uint32_t seed) {
   constexpr int kTiles = 16;
-  return paint_texture(1024, 1024, [&](float u, float v) {
+  return paint_texture(size, size, [&](float u, float v) {
     Tile t = find_tile(u * kTiles, v * kTiles);
     const float pick = unit_hash(t.column, t.row, seed) * 1.999f;
     Vec3f c = pick < 1.0f ? lerp(shades[0], shades[1], pick) : lerp(shades[1], shades[2], pick - 1.0f);
@@ -79,17 +79,14 @@ Texture make_mosaic(const std::array<Vec3f, 3>& shades, Vec3f grout, std::uint32
 std::uint32_t hash_lattice(std::int32_t x, std::int32_t y, std::uint32_t seed) {
   std::uint32_t h = static_cast<std::uint32_t>(x) * 0x9E3779B1u + static_cast<std::uint32_t>(y) * 0x85EBCA77u +
                     seed * 0xC2B2AE3Du;
-  for (int round = 0; round < 2; ++round) {
-    h = h * 747796405u + 2891336453u;
-    h = ((h >> ((h >> 28) + 4)) ^ h) * 277803737u;
-    h = (h >> 22) ^ h;
-  }
-  return h;
+  h = (h ^ (h >> 16)) * 0x7FEB352Du;
+  h = (h ^ (h >> 15)) * 0x846CA68Bu;
+  return h ^ (h >> 16);
 }
 
 float value_noise(float x, float y, std::int32_t period, std::uint32_t seed) {
   const float fx = std::floor(x), fy = std::floor(y);
-  const auto wrap = [period](int i) { return period > 0 ? ((i % period) + period) % period : i; };
+  const auto wrap = [period](int i) { return period > 0 && (i < 0 || i >= period) ? ((i % period) + period) % period : i; };
   const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
   const int x0 = wrap(ix), x1 = wrap(ix + 1), y0 = wrap(iy), y1 = wrap(iy + 1);
   const float sx = ramp(0, 1, x - fx), sy = ramp(0, 1, y - fy);
@@ -111,12 +108,12 @@ float fractal_noise(float x, float y, std::int32_t period, int octaves, std::uin
 }
 
 Texture make_pool_tiles() {
-  return make_mosaic({Vec3f{0.36f, 0.74f, 0.80f}, Vec3f{0.50f, 0.84f, 0.86f}, Vec3f{0.66f, 0.91f, 0.90f}},
+  return make_mosaic(1024, {Vec3f{0.36f, 0.74f, 0.80f}, Vec3f{0.50f, 0.84f, 0.86f}, Vec3f{0.66f, 0.91f, 0.90f}},
                      {0.86f, 0.93f, 0.92f}, 11);
 }
 
 Texture make_lane_tiles() {
-  return make_mosaic({Vec3f{0.05f, 0.15f, 0.42f}, Vec3f{0.08f, 0.21f, 0.50f}, Vec3f{0.12f, 0.28f, 0.58f}},
+  return make_mosaic(512, {Vec3f{0.05f, 0.15f, 0.42f}, Vec3f{0.08f, 0.21f, 0.50f}, Vec3f{0.12f, 0.28f, 0.58f}},
                      {0.45f, 0.60f, 0.72f}, 23);
 }
 

@@ -7,7 +7,7 @@
 
 namespace shoal {
 
-// Integer hash (PCG's output permutation) of a lattice point.
+// Integer hash of a lattice point (two rounds of xor-shift and multiply, constants of Wellons' lowbias32).
 std::uint32_t hash_lattice(std::int32_t x, std::int32_t y, std::uint32_t seed);
 
 // Value noise in [0, 1], smooth; repeats every `period` lattice cells (0: never).
