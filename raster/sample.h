@@ -19,18 +19,26 @@ inline constexpr std::int32_t kHalf = kOne / 2;
 SHOAL_INLINE std::int32_t entry(const std::int32_t* table, std::int32_t i) { return table[i & 15]; }
 SHOAL_INLINE WideI entry(const std::int32_t* table, WideI i) { return permute(WideI::load(table), i); }
 
-// log2(x) in units of 2^-15, truncated. x: finite, normal, at least 1. Exponent by bits; with t = mantissa - 1,
-// log2(1 + t) = t + t (1 - t) q(t), so that powers of two are exact. Error: 1.2e-4 + 2^-15 (test_texture.cpp, "level of
-// detail"). The minimax q is our own fit.
+// A level of detail: whole and fraction in units of 2^-15, below kOne.
 template <class F>
-SHOAL_INLINE IntOf<F> log2_fixed(F x) {
+struct Lod {
+  IntOf<F> level, fraction;
+};
+
+// log2(x) / 2, fraction truncated. x: finite, normal, at least 1. The exponent gives the whole number at once, so that
+// addresses need not wait for the polynomial. With t = mantissa - 1, log2(1 + t) = t + t (1 - t) q(t): powers of two are
+// exact. The minimax q is our own fit. Error: 6e-5 + 2^-15 (test_texture.cpp, "level of detail").
+template <class F>
+SHOAL_INLINE Lod<F> half_log2(F x) {
   using I = IntOf<F>;
   const I bits = as_int(x);
   const I exponent = shift_right_logical(bits, 23) - I(127);
   const F t = as_float((bits & I(0x007FFFFF)) | I(0x3F800000)) - F(1.0f);
   const F q = (F(0.08213072f) * t + F(-0.23905827f)) * t + F(0.43872575f);
-  const F fraction = t + t * (F(1.0f) - t) * q;
-  return (exponent << kFractionBits) + to_int_trunc(fraction * F(static_cast<float>(kOne)));
+  const F part = t + t * (F(1.0f) - t) * q;
+  const I fixed = min(to_int_trunc(part * F(static_cast<float>(kOne))), I(kOne - 1));
+  const I odd = (exponent & I(1)) << kFractionBits;
+  return {exponent >> 1, shift_right_logical(odd + fixed, 1)};
 }
 
 // A texture coordinate folded into [0, 1): one period for repeat, the mirrored half period, or the clamped value. Exact
@@ -122,17 +130,17 @@ SHOAL_INLINE Vec4<F> bilinear_float(const Texture& texture, const Tap<F>& tap) {
 
 // The level of detail of one pixel, before clamping to the levels that there are.
 //   duv_dx, duv_dy  what uv changes by over one pixel
-// Returns log2 of the longer of the two in texels of level 0, as fixed point with 15 bits of fraction, from 0 (magnified,
-// or not a number) to 14.
+// Returns log2 of the longer of the two in texels of level 0: whole level and fraction in units of 2^-15, from 0
+// (magnified, or not a number) to 14.
 // Source: Vulkan 1.3, 16.5.7 (scale factor rho_max, no anisotropy). Error: 1e-4 levels (test_texture.cpp).
 template <class F>
-SHOAL_INLINE IntOf<F> level_of_detail(const Texture& texture, Vec2<F> duv_dx, Vec2<F> duv_dy) {
+SHOAL_INLINE sample_detail::Lod<F> level_of_detail(const Texture& texture, Vec2<F> duv_dx, Vec2<F> duv_dy) {
   const F width(static_cast<float>(texture.width[0])), height(static_cast<float>(texture.height[0]));
   const F ux = duv_dx.x * width, vx = duv_dx.y * height, uy = duv_dy.x * width, vy = duv_dy.y * height;
   const F x2 = ux * ux + vx * vx, y2 = uy * uy + vy * vy;
   // max(a, 1) is 1 where a is NaN.
   const F rho2 = min(max(max(x2, F(1.0f)), max(y2, F(1.0f))), F(0x1p28f));
-  return shift_right_logical(sample_detail::log2_fixed<F>(rho2), 1);
+  return sample_detail::half_log2<F>(rho2);
 }
 
 // Samples `texture` at `uv`: linear light, alpha as stored.
@@ -156,15 +164,15 @@ SHOAL_INLINE Vec4<F> sample(const Texture& texture, const Sampler& sampler, Vec2
   // Level and its fraction; magnified lanes have level 0 and fraction 0.
   I level(0), fraction(0);
   if (texture.level_count > 1 || sampler.magnify != sampler.minify) {
-    const I lod = level_of_detail<F>(texture, duv_dx, duv_dy);
-    if (sampler.magnify != sampler.minify) at.half = select(lod > I(0), I(filter_half(sampler.minify)), at.half);
-    const I last((texture.level_count - 1) << kFractionBits);
+    const Lod<F> lod = level_of_detail<F>(texture, duv_dx, duv_dy);
+    const MaskOf<F> minified = (lod.level | lod.fraction) > I(0);
+    if (sampler.magnify != sampler.minify) at.half = select(minified, I(filter_half(sampler.minify)), at.half);
+    const I last(texture.level_count - 1);
     if (sampler.mip == MipFilter::kLinear) {
-      const I clamped = min(lod, last);
-      level = clamped >> kFractionBits;
-      fraction = clamped & I(kOne - 1);
+      level = min(lod.level, last);
+      fraction = select(lod.level < last, lod.fraction, I(0));
     } else if (sampler.mip == MipFilter::kNearest) {
-      level = min(lod + I(kHalf), last) >> kFractionBits;
+      level = min(lod.level + shift_right_logical(lod.fraction, kFractionBits - 1), last);
     }
   }
   at.weight_mask = (at.half << 1) - select(at.half > I(0), I(1), I(0));
