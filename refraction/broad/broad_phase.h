@@ -274,13 +274,29 @@ SHOAL_INLINE void virtual_bounds(const BroadPhase& bp, Vec3f box_min, Vec3f box_
 // in [1, 3] at most this (0.5 / r is met as r -> 1; test_broad_phase.cpp takes the supremum in double).
 SHOAL_INLINE float hessian_bound(float ratio) { return max(0.5f / ratio, 0.24f); }
 
+// The same seen from the dense side, for the points of one box on the far side: over all points it has no bound there.
+// With S and q of the path, c = a r^2 / q^3 and E = b + c, the second derivatives of v = b q are
+//   v_dd = m b / (E^2 q^3) (r^2 + 3 m S^2 c / E),   v_bd = m S / (q E^2) (c - b / q^2 (r^2 + 3 m S^2 c / E)),
+//   |v_bb| <= 4.75 m S^2 / (q E),                   v_d / d = m b / (E (q b + a)) across,
+// and each factor is taken at its worst over the box. Returns 1/m; infinity next to the plane outside of the window.
+SHOAL_INLINE float dense_hessian_bound(const BroadPhase& bp, const BoxDistances& box) {
+  const float a = bp.eye_distance_m, b_lo = max(box.far_lo_m, 0.0f), m = bp.path.m;
+  const PathSolution<float> outer = solve_path(bp.path, b_lo, a, box.across_hi_m);
+  const PathSolution<float> inner = solve_path(bp.path, box.far_hi_m, a, box.across_lo_m);
+  const float s = outer.tan_thin, q = inner.q, r2 = bp.path.ratio * bp.path.ratio;
+  const float c = a * r2 / (outer.q * outer.q * outer.q), e = b_lo + c;
+  const float bend = min(0.25f / c, 1.0f / e) * (r2 + 3.0f * m * s * s) / (q * q);  // b / E^2 <= 1 / 4c, 1 / E
+  const float dd = m * bend / q, bd = m * s / q * max(1.0f / e, bend), bb = 4.75f * m * s * s / (q * e);
+  return max(std::sqrt(dd * dd + 2.0f * bd * bd + bb * bb), m / (a + q * b_lo));
+}
+
 // What edge_deviation_px cannot exceed for any edge up to a length in a world box: a chunk that passes needs no look at
 // its edges.
 //
 //   longest_edge_m  >= 0
-// Returns pixels: hessian_bound f L^2 / (8 a w), with a the eye's distance and w the least view depth of the box's
-// virtual bounds, or the share of kEdgeReach if larger; 0 where the map is linear in the box; infinity where no bound
-// is known: seen from the dense side (under water, for ior > 1), and in boxes through the plane.
+// Returns pixels: |Hessian| f L^2 / (8 w), with w the least view depth of the box's virtual bounds, or the share of
+// kEdgeReach if larger; 0 where the map is linear in the box; infinity where no bound is known: in boxes through the
+// plane, and from the dense side in boxes that touch it outside of the window.
 SHOAL_INLINE float chunk_deviation_bound_px(const BroadPhase& bp, const View& view, Vec3f bounds_min, Vec3f bounds_max,
                                             float longest_edge_m) {
   constexpr float kUnknown = std::numeric_limits<float>::infinity();
@@ -289,7 +305,7 @@ SHOAL_INLINE float chunk_deviation_bound_px(const BroadPhase& bp, const View& vi
   const bool linear_on_eye_side = bp.orthographic || bp.eye_is_thin, linear_on_far_side = bp.orthographic;
   if (linear_on_eye_side && box.far_hi_m <= 0.0f) return 0.0f;
   if (linear_on_far_side && box.far_lo_m >= 0.0f) return 0.0f;
-  if (!bp.eye_is_thin || box.far_lo_m < 0.0f || bp.eye_distance_m == 0.0f) return kUnknown;
+  if (bp.orthographic || box.far_lo_m < 0.0f || bp.eye_distance_m == 0.0f) return kUnknown;
   Vec3f lo, hi;
   virtual_bounds(bp, bounds_min, bounds_max, lo, hi);
   const Vec3f centre = (lo + hi) * 0.5f, half = (hi - lo) * 0.5f, w = view.row_w;
@@ -297,8 +313,10 @@ SHOAL_INLINE float chunk_deviation_bound_px(const BroadPhase& bp, const View& vi
   const float nearest = max(dot(w, centre - bp.eye_world) - reach, bp.near_m);
   const Vec3f outside = max(max(lo - bp.eye_world, bp.eye_world - hi), Vec3f{0.0f, 0.0f, 0.0f});
   const float length2 = longest_edge_m * longest_edge_m, distance2 = max(dot(outside, outside), 1e-30f);
-  const float bend = hessian_bound(bp.path.ratio) * bp.px_per_unit * length2 / (8.0f * bp.eye_distance_m * nearest);
-  return max(bend, kEdgeThresholdPx / (kEdgeReach * kEdgeReach) * length2 / distance2);
+  const float hessian =
+      bp.eye_is_thin ? hessian_bound(bp.path.ratio) / bp.eye_distance_m : dense_hessian_bound(bp, box);
+  return max(hessian * bp.px_per_unit * length2 / (8.0f * nearest),
+             kEdgeThresholdPx / (kEdgeReach * kEdgeReach) * length2 / distance2);
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

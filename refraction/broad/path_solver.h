@@ -111,8 +111,8 @@ SHOAL_INLINE PathSolution<F> solve_path(const PathConstants& c, F thin_m, F dens
 // Returns the apparent distance from the plane in metres, >= 0: far_m / q seen from the thin side, far_m q from the
 // dense one (where far_m -> 0 gives max(0, sqrt(m) d - eye_m), the edge of Snell's window: it is not 0 there).
 // Error: over d/a in [0, 50] x b/a in [1e-3, 100] (a eye_m, b far_m) and ior 1/3 to 3: relative 1.2e-6 from the thin
-//        side and 6e-6 from the dense one (worst round d/a = 1 / sqrt(m), where the function itself is steep); 2.5e-4 px
-//        at 935 px a unit and a = 2 m. tests/refraction/test_path_solver.cpp pins all three.
+//        side and 6e-6 from the dense one (worst round d/a = 1 / sqrt(m), where the function itself is steep); 2.5e-4
+//        px at 935 px a unit and a = 2 m. tests/refraction/test_path_solver.cpp pins all three.
 template <class F>
 SHOAL_INLINE F virtual_distance(const PathConstants& c, bool eye_is_thin, F eye_m, F far_m, F d_m) {
   if (c.identity) return far_m;

@@ -116,9 +116,13 @@ inline double worst_deviation_of_passing_triangle(Random& random, float ior, boo
   const View view = looking({0, -side * a, 0}, random, false);
   const BroadPhase bp = make_broad_phase(Vec3f{0, 0, 0}, Vec3f{0, 1, 0}, ior, view);
   float d = random.log_in(0.01f, 50.0f) * a;
-  const float b = random.log_in(1e-4f, 10.0f) * a * (through_plane && random.in(0, 1) < 0.5f ? -1.0f : 1.0f);
+  const float distance = random.log_in(1e-4f, 10.0f) * a;
+  const float b = through_plane && random.in(0, 1) < 0.5f ? -distance : distance;
   // A third of them at the critical angle's distance, where the map from the dense side is steepest.
-  if (random.in(0, 1) < 0.3f) d = a * bp.path.inv_sqrt_m * (1.0f + random.in(-0.5f, 0.5f) * random.log_in(1e-3f, 1.0f));
+  if (random.in(0, 1) < 0.3f) {
+    const float off = random.in(-0.5f, 0.5f);
+    d = a * bp.path.inv_sqrt_m * (1.0f + off * random.log_in(1e-3f, 1.0f));
+  }
   const float angle = random.in(0, 6.2831853f);
   const Vec3f centre = {d * std::cos(angle), b * side, d * std::sin(angle)};
   Vec3f shape[3];

@@ -242,8 +242,8 @@ TEST_CASE("ray against triangle, and its screen derivatives", "[refraction]") {
     const Vec3d truth = ray_d.origin + ray_d.direction * want.x;
     const double scale = norm(to_double(p0) - ray_d.origin) + norm(ray_d.origin) + e1_m + e2_m;
     point_error = std::max(point_error, norm(got - truth) * facing * sharpness / scale);
-    barycentric_error = std::max(barycentric_error, std::max(std::fabs(u - want.y) * e1_m, std::fabs(v - want.z) * e2_m) *
-                                                        facing * sharpness / scale);
+    const double uv_error = std::max(std::fabs(u - want.y) * e1_m, std::fabs(v - want.z) * e2_m);
+    barycentric_error = std::max(barycentric_error, uv_error * facing * sharpness / scale);
     if (k % 4 != 0) continue;
     const TriangleHitDerivatives<float> slope = hit_derivatives(ray, start, p0, e1, e2, hit);
     const Vec3d by_x = derivative([&](double at) { return exact(view_ray(s.view, at, y)); }, x);
