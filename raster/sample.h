@@ -81,13 +81,6 @@ SHOAL_INLINE AxisTap<F> axis_tap(F folded, IntOf<F> size, Wrap wrap, IntOf<F> ha
   return {x >> kFractionBits, x & weight_mask};
 }
 
-// Where the four texels of a bilinear tap are, and their weights.
-template <class F>
-struct Tap {
-  IntOf<F> index, row;  // texel numbers of the upper and the lower left texel
-  IntOf<F> wx, wy;
-};
-
 // What is one for all levels of a lane.
 template <class F>
 struct Footprint {
@@ -95,16 +88,35 @@ struct Footprint {
   IntOf<F> half, weight_mask;  // see axis_tap
 };
 
+// Where the four texels of a bilinear tap are, and their weights.
 template <class F>
-SHOAL_INLINE Tap<F> make_tap(const Texture& texture, const Sampler& sampler, const Footprint<F>& at, IntOf<F> level) {
-  using I = IntOf<F>;
-  const I width = entry(texture.width, level), height = entry(texture.height, level);
+struct Tap {
+  IntOf<F> index;  // texel number of the upper left one, from the level's first
+  IntOf<F> wx, wy;
+};
+template <class F>
+SHOAL_INLINE Tap<F> make_tap(const Sampler& sampler, const Footprint<F>& at, IntOf<F> width, IntOf<F> height) {
   const AxisTap<F> x = axis_tap(at.folded.x, width, sampler.wrap_u, at.half, at.weight_mask);
   const AxisTap<F> y = axis_tap(at.folded.y, height, sampler.wrap_v, at.half, at.weight_mask);
-  const I stride = width + I(1);
-  const I index = entry(texture.first_texel, level) + y.texel * stride + x.texel;
-  return {index, index + stride, x.weight, y.weight};
+  return {y.texel * (width + IntOf<F>(1)) + x.texel, x.weight, y.weight};
 }
+
+// One level of an 8-bit texture: the same for all lanes, as it mostly is in a block of pixels, or one a lane.
+template <class F>
+SHOAL_INLINE auto sample_one_level(const Texture& texture, const Sampler& sampler, const Footprint<F>& at, std::int32_t level) {
+  const std::int32_t width = texture.width[level];
+  const Tap<F> tap = make_tap<F>(sampler, at, IntOf<F>(width), IntOf<F>(texture.height[level]));
+  return bilinear_texels(texture.rgba15.data() + texture.first_texel[level], width + 1, tap.index, tap.wx, tap.wy);
+}
+SHOAL_INLINE WideTexel sample_any_level(const Texture& texture, const Sampler& sampler, const Footprint<WideF>& at, WideI level) {
+  const WideI width = entry(texture.width, level), height = entry(texture.height, level);
+  const Tap<WideF> tap = make_tap<WideF>(sampler, at, width, height);
+  const WideI index = entry(texture.first_texel, level) + tap.index;
+  return bilinear_texels(texture.rgba15.data(), width + WideI(1), index, tap.wx, tap.wy);
+}
+
+SHOAL_INLINE std::int32_t first_lane(std::int32_t v) { return v; }
+SHOAL_INLINE std::int32_t first_lane(WideI v) { return extract(v, 0); }
 
 // Float textures: the same taps, weights as floats; a rare format, so four gathers a texel will do.
 SHOAL_INLINE float fetch(const float* base, std::int32_t i) { return base[i]; }
@@ -117,8 +129,11 @@ SHOAL_INLINE F bilinear_channel(const float* base, IntOf<F> top, IntOf<F> bottom
   return left + (right - left) * wx;
 }
 template <class F>
-SHOAL_INLINE Vec4<F> bilinear_float(const Texture& texture, const Tap<F>& tap) {
-  const IntOf<F> top = tap.index << 2, bottom = tap.row << 2;
+SHOAL_INLINE Vec4<F> bilinear_float(const Texture& texture, const Sampler& sampler, const Footprint<F>& at, IntOf<F> level) {
+  const IntOf<F> width = entry(texture.width, level), height = entry(texture.height, level);
+  const Tap<F> tap = make_tap<F>(sampler, at, width, height);
+  const IntOf<F> top = (entry(texture.first_texel, level) + tap.index) << 2;
+  const IntOf<F> bottom = top + ((width + IntOf<F>(1)) << 2);
   const F scale(1.0f / static_cast<float>(kOne));
   const F wx = to_float(tap.wx) * scale, wy = to_float(tap.wy) * scale;
   const float* base = texture.rgba32f.data();
@@ -178,20 +193,23 @@ SHOAL_INLINE Vec4<F> sample(const Texture& texture, const Sampler& sampler, Vec2
   at.weight_mask = (at.half << 1) - select(at.half > I(0), I(1), I(0));
 
   const bool two_levels = any((fraction != I(0)) & active);
-  const Tap<F> tap = make_tap<F>(texture, sampler, at, level);
   if (texture.format == TexelFormat::kRgba32Float) {
-    const Vec4<F> a = bilinear_float<F>(texture, tap);
+    const Vec4<F> a = bilinear_float<F>(texture, sampler, at, level);
     if (!two_levels) return a;
-    const Vec4<F> b = bilinear_float<F>(texture, make_tap<F>(texture, sampler, at, level + I(1)));
+    const Vec4<F> b = bilinear_float<F>(texture, sampler, at, level + I(1));
     const F t = to_float(fraction) * F(1.0f / static_cast<float>(kOne));
     return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, a.w + (b.w - a.w) * t};
   }
-  const std::uint64_t* texels = texture.rgba15.data();
-  const auto a = bilinear_texels(texels, tap.index, tap.row, tap.wx, tap.wy);
+  const std::int32_t one_level = first_lane(level);
+  if constexpr (LanesOf<F>::kCount > 1) {
+    if (!all(level == I(one_level))) {
+      const WideTexel a = sample_any_level(texture, sampler, at, level);
+      return texels_to_float(lerp_texels(a, sample_any_level(texture, sampler, at, level + I(1)), fraction));
+    }
+  }
+  const auto a = sample_one_level<F>(texture, sampler, at, one_level);
   if (!two_levels) return texels_to_float(a);
-  const Tap<F> next = make_tap<F>(texture, sampler, at, level + I(1));
-  const auto b = bilinear_texels(texels, next.index, next.row, next.wx, next.wy);
-  return texels_to_float(lerp_texels(a, b, fraction));
+  return texels_to_float(lerp_texels(a, sample_one_level<F>(texture, sampler, at, one_level + 1), fraction));
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -38,11 +38,11 @@ SHOAL_INLINE Texel lerp_texels(const Texel& a, const Texel& b, std::int32_t w) {
   for (int c = 0; c < 4; ++c) r.channel[c] = texel_detail::lerp15(a.channel[c], b.channel[c], w);
   return r;
 }
-SHOAL_INLINE Texel bilinear_texels(const std::uint64_t* texels, std::int32_t index, std::int32_t row, std::int32_t wx,
+SHOAL_INLINE Texel bilinear_texels(const std::uint64_t* texels, std::int32_t stride, std::int32_t index, std::int32_t wx,
                                    std::int32_t wy) {
   using namespace texel_detail;
   const std::uint64_t* top = texels + index;
-  const std::uint64_t* bottom = texels + row;
+  const std::uint64_t* bottom = top + stride;
   Texel left, right;
   for (int c = 0; c < 4; ++c) {
     left.channel[c] = lerp15(channel15(top[0], c), channel15(bottom[0], c), wy);
@@ -97,27 +97,39 @@ SHOAL_INLINE WideTexel lerp_texels(const WideTexel& a, const WideTexel& b, WideI
   return r;
 }
 
-// The four texels texels[index], [index + 1], [row] and [row + 1] of every lane, filtered: first down, then across.
-//   index, row  of the upper and of the lower pair
-//   wx, wy      0 to 32767: weight of the right and of the lower texels
-SHOAL_INLINE WideTexel bilinear_texels(const std::uint64_t* texels, WideI index, WideI row, WideI wx, WideI wy) {
-  using namespace texel_detail;
-  alignas(64) std::int32_t top[16], bottom[16];
-  index.store(top);
-  row.store(bottom);
+namespace texel_detail {
+// Lane i's upper pair is at top + i-th of `at`, its lower pair at bottom + i-th of `at_bottom`.
+SHOAL_INLINE WideTexel bilinear(const std::uint64_t* top, const std::int32_t* at, const std::uint64_t* bottom,
+                                const std::int32_t* at_bottom, WideI wx, WideI wy) {
   const Words across = twice(wx), down = twice(wy);
   WideTexel r;
   for (int k = 0; k < kRegs; ++k) {
-    const std::int32_t* i = top + k * (16 / kRegs);
-    const std::int32_t* j = bottom + k * (16 / kRegs);
-    const Reg v0 = lerp15(load_pairs(texels, i), load_pairs(texels, j), words<kAllOf<0>>(down.reg[k]));
-    const Reg v1 = lerp15(load_pairs(texels, i + 1), load_pairs(texels, j + 1), words<kAllOf<1>>(down.reg[k]));
-    const Reg v2 = lerp15(load_pairs(texels, i + 2), load_pairs(texels, j + 2), words<kAllOf<2>>(down.reg[k]));
-    const Reg v3 = lerp15(load_pairs(texels, i + 3), load_pairs(texels, j + 3), words<kAllOf<3>>(down.reg[k]));
+    const std::int32_t* i = at + k * (16 / kRegs);
+    const std::int32_t* j = at_bottom + k * (16 / kRegs);
+    const Reg v0 = lerp15(load_pairs(top, i), load_pairs(bottom, j), words<kAllOf<0>>(down.reg[k]));
+    const Reg v1 = lerp15(load_pairs(top, i + 1), load_pairs(bottom, j + 1), words<kAllOf<1>>(down.reg[k]));
+    const Reg v2 = lerp15(load_pairs(top, i + 2), load_pairs(bottom, j + 2), words<kAllOf<2>>(down.reg[k]));
+    const Reg v3 = lerp15(load_pairs(top, i + 3), load_pairs(bottom, j + 3), words<kAllOf<3>>(down.reg[k]));
     r.pair[k][0] = lerp15(low64(v0, v1), high64(v0, v1), words<kFirstTwo>(across.reg[k]));
     r.pair[k][1] = lerp15(low64(v2, v3), high64(v2, v3), words<kLastTwo>(across.reg[k]));
   }
   return r;
+}
+}  // namespace texel_detail
+
+// The four texels texels[index], [index + 1], [index + stride] and [index + stride + 1] of every lane, filtered: first
+// down, then across. One stride for all lanes, or one a lane.
+//   wx, wy  0 to 32767: weight of the right and of the lower texels
+SHOAL_INLINE WideTexel bilinear_texels(const std::uint64_t* texels, std::int32_t stride, WideI index, WideI wx, WideI wy) {
+  alignas(64) std::int32_t at[16];
+  index.store(at);
+  return texel_detail::bilinear(texels, at, texels + stride, at, wx, wy);
+}
+SHOAL_INLINE WideTexel bilinear_texels(const std::uint64_t* texels, WideI stride, WideI index, WideI wx, WideI wy) {
+  alignas(64) std::int32_t at[16], at_bottom[16];
+  index.store(at);
+  (index + stride).store(at_bottom);
+  return texel_detail::bilinear(texels, at, texels, at_bottom, wx, wy);
 }
 
 // To linear floats, 1 for kTexelOne.

@@ -1,0 +1,152 @@
+// Front end: chunks of the scene through a vertex program, clipping and setup into bins.
+//
+// A vertex program is any callable that takes a world position to a clip vertex, templated on the lane type:
+//
+//   struct Program {
+//     template <class F> ClipVertex<F> vertex(Vec3<F> position_world) const;
+//     bool chunk_outside(const Chunk&) const;            // conservative: true only if nothing of it can show
+//   };
+//
+// A program that bends straight edges (a broad phase) derives from nothing either, sets kWarped and adds what
+// raster/tessellate.h names. Other programs declare `static constexpr bool kWarped = false;`.
+#pragma once
+
+#include <cstdint>
+
+#include "core/wide/lanes.h"
+#include "core/wide/lookup.h"
+#include "raster/clip.h"
+#include "raster/geometry.h"
+#include "raster/material.h"
+#include "raster/setup.h"
+
+namespace shoal {
+
+// Raw views of the geometry, so that kernels touch no container.
+struct GeometryView {
+  const float *x_world, *y_world, *z_world;
+  const std::uint8_t* corner[3];
+  const Chunk* chunks;
+  const VertexRecord* vertices;
+  const Vec4f* colors;  // null: none
+  const Geometry::TriangleRecord* triangles;
+  const Material* materials;
+  const Texture* textures;
+};
+
+}  // namespace shoal
+
+#include "raster/tessellate.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+template <class Program>
+class FrontEnd {
+ public:
+  SHOAL_INLINE FrontEnd(const GeometryView& geometry, const Program& program, const PassSettings& pass, BinItem& item)
+      : geometry_(geometry), program_(program), sink_(pass, item), tessellator_(program, sink_) {}
+
+  // Chunks [first, last) of the scene, in order. id_override replaces the triangle ids (a water outline's), or is kNoId.
+  void run(std::uint32_t first, std::uint32_t last, std::int32_t id_override) {
+    sink_.item().clear();
+    for (std::uint32_t c = first; c < last; ++c) {
+      const Chunk& chunk = geometry_.chunks[c];
+      if (program_.chunk_outside(chunk)) continue;
+      draw_chunk(chunk, id_override);
+    }
+    sink_.finish();
+  }
+
+ private:
+  // A chunk's vertices on the pixel grid.
+  struct alignas(64) ChunkVertices {
+    std::int32_t x[kChunkVertices], y[kChunkVertices];
+    float depth[kChunkVertices];
+  };
+
+  __attribute__((noinline)) void draw_chunk(const Chunk& chunk, std::int32_t id_override) {
+    const Material& material = geometry_.materials[chunk.material];
+    const bool masked = material.alpha_mode == AlphaMode::kMask;
+    const bool two_sided = material.double_sided;
+    sink_.item().triangles_in += chunk.triangle_count;
+
+    // What has to leave the fast path: triangles that reach through the world plane or bend too much.
+    bool through_plane = false, bends = false;
+    if constexpr (Program::kWarped) {
+      through_plane = !program_.chunk_inside(chunk);
+      bends = program_.chunk_bends(chunk);
+    }
+    const float* wx = geometry_.x_world + chunk.first_vertex;
+    const float* wy = geometry_.y_world + chunk.first_vertex;
+    const float* wz = geometry_.z_world + chunk.first_vertex;
+
+    ChunkVertices v;
+    std::uint64_t needs_clip = 0;
+    for (int i = 0; i < chunk.vertex_count; i += 16) {
+      const ClipVertex<WideF> clip = program_.vertex(Vec3<WideF>{WideF::load(wx + i), WideF::load(wy + i), WideF::load(wz + i)});
+      needs_clip |= std::uint64_t(~to_bits(inside_guard(clip)) & 0xFFFFu) << i;
+      const SnappedLanes s = snap(clip, sink_.pass().centre_px);
+      s.x.store(v.x + i), s.y.store(v.y + i), s.depth.store(v.depth + i);
+    }
+
+    const bool all_fast = needs_clip == 0 && !through_plane && !bends;
+    for (int t = 0; t < chunk.triangle_count; t += 16) {
+      const WideI i0 = load_u8(geometry_.corner[0] + chunk.first_index + static_cast<std::uint32_t>(t));
+      const WideI i1 = load_u8(geometry_.corner[1] + chunk.first_index + static_cast<std::uint32_t>(t));
+      const WideI i2 = load_u8(geometry_.corner[2] + chunk.first_index + static_cast<std::uint32_t>(t));
+      WideM active = lane_index() < WideI(chunk.triangle_count - t);
+      const WideI id = id_override != kNoId ? WideI(id_override)
+                                            : WideI(static_cast<std::int32_t>(chunk.first_triangle) + t) + lane_index();
+      if (!all_fast) {
+        const WideM slow = active & slow_lanes(wx, wy, wz, i0, i1, i2, needs_clip, through_plane, bends);
+        add_slow(wx, wy, wz, i0, i1, i2, id, to_bits(slow), two_sided, masked);
+        active = active & !slow;
+        if (none(active)) continue;
+      }
+      sink_.add(corner(v, i0), corner(v, i1), corner(v, i2), id, active, two_sided, masked);
+    }
+    tessellator_.flush();
+  }
+
+  SHOAL_INLINE static SnappedLanes corner(const ChunkVertices& v, WideI i) {
+    return {lookup64(v.x, i), lookup64(v.y, i), lookup64(v.depth, i)};
+  }
+  SHOAL_INLINE static Vec3<WideF> world_corner(const float* x, const float* y, const float* z, WideI i) {
+    return {lookup64(x, i), lookup64(y, i), lookup64(z, i)};
+  }
+
+  SHOAL_INLINE WideM slow_lanes(const float* x, const float* y, const float* z, WideI i0, WideI i1, WideI i2,
+                                std::uint64_t needs_clip, bool through_plane, bool bends) {
+    WideM slow = mask_from_bits(0);
+    if (needs_clip != 0) {
+      alignas(64) std::int32_t flags[kChunkVertices];
+      for (int i = 0; i < kChunkVertices; ++i) flags[i] = static_cast<std::int32_t>((needs_clip >> i) & 1u);
+      slow = (lookup64(flags, i0) | lookup64(flags, i1) | lookup64(flags, i2)) != WideI(0);
+    }
+    if constexpr (Program::kWarped) {
+      if (!through_plane && !bends) return slow;
+      const Vec3<WideF> a = world_corner(x, y, z, i0), b = world_corner(x, y, z, i1), c = world_corner(x, y, z, i2);
+      if (through_plane) slow = slow | !(program_.inside(a) & program_.inside(b) & program_.inside(c));
+      if (bends) slow = slow | program_.edge_bends(a, b) | program_.edge_bends(b, c) | program_.edge_bends(c, a);
+    }
+    return slow;
+  }
+
+  __attribute__((noinline)) void add_slow(const float* x, const float* y, const float* z, WideI i0, WideI i1, WideI i2,
+                                          WideI id, std::uint32_t lanes, bool two_sided, bool masked) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int l = __builtin_ctz(lanes);
+      const int k[3] = {extract(i0, l), extract(i1, l), extract(i2, l)};
+      Vec3f p[3];
+      for (int j = 0; j < 3; ++j) p[j] = {x[k[j]], y[k[j]], z[k[j]]};
+      tessellator_.add(p[0], p[1], p[2], extract(id, l), two_sided, masked);
+    }
+  }
+
+  const GeometryView& geometry_;
+  const Program& program_;
+  TriangleSink sink_;
+  Tessellator<Program> tessellator_;
+};
+
+}  // namespace shoal::inline SHOAL_ISA_NS

@@ -1,0 +1,131 @@
+// Resolve: from visible ids to what the pixel program reads, once for each visible pixel.
+//
+// A pixel's point is where its ray meets the plane of its triangle, from the triangle's own corners: one canonical
+// expression that neither clipping nor subdivision nor snapping enters. The same function serves view rays, rays
+// refracted at water and mirrored ones.
+//
+// Cost   about 60 cycles a distinct triangle of a 4 x 4 block and 250 a block (docs/PERFORMANCE.md).
+#pragma once
+
+#include <cstdint>
+
+#include "core/vec_lanes.h"
+#include "raster/front_end.h"
+#include "raster/ray_triangle.h"
+#include "raster/surface.h"
+
+namespace shoal {
+
+// Sixteen pixels of one block, interpolated; lanes that were not asked for hold zeros or finite leftovers.
+template <class F>
+struct PixelAttributes {
+  Vec3<F> position_world;
+  Vec3<F> normal_world;   // unit, turned to the viewer where the triangle shows its back
+  F t;                    // of the hit along the ray, in its direction's lengths
+  Vec2<F> uv, duv_dx, duv_dy;
+  Vec4<F> color;          // COLOR_0, 1 where there is none
+};
+
+}  // namespace shoal
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+// Calls body(lane, lanes) for each distinct value among the active lanes, in the order of their first lane.
+template <class Body>
+SHOAL_INLINE void for_each_distinct(WideI value, WideM active, Body body) {
+  std::uint32_t left = to_bits(active);
+  alignas(64) std::int32_t values[16];
+  value.store(values);
+  while (left != 0) {
+    const int lane = __builtin_ctz(left);
+    const std::uint32_t same = to_bits(value == WideI(values[lane])) & left;
+    body(values[lane], mask_from_bits(same));
+    left &= ~same;
+  }
+}
+
+// The value of the first active lane; at least one is.
+SHOAL_INLINE std::int32_t first_value(WideI value, WideM active) { return extract(value, __builtin_ctz(to_bits(active))); }
+
+// Three corners of the triangle of every lane.
+struct TriangleLanes {
+  Vec3<WideF> p0, e1, e2;
+  Vec3<WideF> n0, n1, n2;
+  Vec2<WideF> uv0, duv1, duv2;
+};
+
+// One triangle in every lane.
+SHOAL_INLINE TriangleLanes fetch_triangle(const GeometryView& g, std::int32_t id) {
+  const Geometry::TriangleRecord& t = g.triangles[id];
+  const VertexRecord &a = g.vertices[t.vertex[0]], &b = g.vertices[t.vertex[1]], &c = g.vertices[t.vertex[2]];
+  return {broadcast<WideF>(a.position_world), broadcast<WideF>(b.position_world - a.position_world),
+          broadcast<WideF>(c.position_world - a.position_world),
+          broadcast<WideF>(a.normal_world), broadcast<WideF>(b.normal_world), broadcast<WideF>(c.normal_world),
+          broadcast<WideF>(a.uv), broadcast<WideF>(b.uv - a.uv), broadcast<WideF>(c.uv - a.uv)};
+}
+SHOAL_INLINE void merge_triangle(TriangleLanes& to, const TriangleLanes& t, WideM lanes) {
+  to.p0 = select<WideF>(lanes, t.p0, to.p0), to.e1 = select<WideF>(lanes, t.e1, to.e1), to.e2 = select<WideF>(lanes, t.e2, to.e2);
+  to.n0 = select<WideF>(lanes, t.n0, to.n0), to.n1 = select<WideF>(lanes, t.n1, to.n1), to.n2 = select<WideF>(lanes, t.n2, to.n2);
+  to.uv0 = select<WideF>(lanes, t.uv0, to.uv0);
+  to.duv1 = select<WideF>(lanes, t.duv1, to.duv1), to.duv2 = select<WideF>(lanes, t.duv2, to.duv2);
+}
+
+SHOAL_INLINE Vec4<WideF> fetch_color(const GeometryView& g, WideI id, WideM active, WideF u, WideF v) {
+  Vec4<WideF> color{WideF(1.0f), WideF(1.0f), WideF(1.0f), WideF(1.0f)};
+  if (g.colors == nullptr) return color;
+  for_each_distinct(id, active, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
+    const Geometry::TriangleRecord& t = g.triangles[one];
+    const Vec4f &a = g.colors[t.vertex[0]], &b = g.colors[t.vertex[1]], &c = g.colors[t.vertex[2]];
+    auto channel = [&](WideF& to, float fa, float fb, float fc) SHOAL_LAMBDA {
+      to = select(lanes, WideF(fa) + WideF(fb - fa) * u + WideF(fc - fa) * v, to);
+    };
+    channel(color.x, a.x, b.x, c.x), channel(color.y, a.y, b.y, c.y);
+    channel(color.z, a.z, b.z, c.z), channel(color.w, a.w, b.w, c.w);
+  });
+  return color;
+}
+
+// Barycentrics brought into the triangle: coverage is decided on the pixel grid and may exceed the triangle by 1/512 px
+// (and by the broad phase's quarter of a pixel).
+SHOAL_INLINE void clamp_to_triangle(WideF& u, WideF& v) {
+  u = clamp(u, WideF(0.0f), WideF(1.0f));
+  v = clamp(v, WideF(0.0f), WideF(1.0f) - u);
+}
+
+//   ray           one a lane, world; its differential: by pixel
+//   id            triangle ids; active: which of them are
+// Error  position: as intersect_triangle (raster/ray_triangle.h), then within the triangle.
+__attribute__((noinline)) inline void resolve_attributes(const GeometryView& g, const Ray<WideF>& ray,
+                                                         const RayDifferential<WideF>& differential, WideI id, WideM active,
+                                                         PixelAttributes<WideF>& out) {
+  TriangleLanes t = fetch_triangle(g, first_value(id, active));
+  for_each_distinct(id, active & (id != WideI(first_value(id, active))),
+                    [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA { merge_triangle(t, fetch_triangle(g, one), lanes); });
+  const TriangleHit<WideF> hit = intersect_triangle(ray, t.p0, t.e1, t.e2);
+  const TriangleHitDerivatives<WideF> d = hit_derivatives(ray, differential, t.p0, t.e1, t.e2, hit);
+  WideF u = hit.u, v = hit.v;
+  clamp_to_triangle(u, v);
+  const WideF w = (WideF(1.0f) - u) - v;
+  out.t = hit.t;
+  out.position_world = t.p0 + t.e1 * u + t.e2 * v;
+  // Seen from behind (double-sided materials), the normal turns to the viewer.
+  const Vec3<WideF> normal = normalize(t.n0 * w + t.n1 * u + t.n2 * v);
+  const WideM behind = dot(cross(t.e1, t.e2), ray.direction_world) > WideF(0.0f);
+  out.normal_world = select<WideF>(behind, -normal, normal);
+  out.uv = t.uv0 + t.duv1 * u + t.duv2 * v;
+  out.duv_dx = t.duv1 * d.u_dx + t.duv2 * d.v_dx;
+  out.duv_dy = t.duv1 * d.u_dy + t.duv2 * d.v_dy;
+  out.color = fetch_color(g, id, active, u, v);
+}
+
+// Alpha test of the visibility pass: the covered pixels of a masked triangle that its material keeps.
+__attribute__((noinline)) inline WideM alpha_cut(const GeometryView& g, const Materials& materials, const Ray<WideF>& ray,
+                                                 const RayDifferential<WideF>& differential, std::int32_t id, WideM cover) {
+  PixelAttributes<WideF> a;
+  resolve_attributes(g, ray, differential, WideI(id), cover, a);
+  const Material& material = g.materials[g.triangles[id].material];
+  const WideF alpha = surface_alpha<WideF>(material, materials, a.uv, a.duv_dx, a.duv_dy, a.color.w, cover);
+  return cover & (alpha >= WideF(material.alpha_cutoff));
+}
+
+}  // namespace shoal::inline SHOAL_ISA_NS

@@ -1,0 +1,68 @@
+// One frame, start to end: the page to read first.
+//
+// Every stage is a call, every buffer a member of FrameData (refraction/frame_data.h). Stages run one after the other,
+// each on all threads; the kernels behind them are in raster/ (front end, bins, visibility, resolve, light, post) and
+// refraction/ (broad and narrow phase).
+#include "refraction/frame.h"
+
+#include "refraction/stage_digests.h"
+#include "refraction/water_region.h"
+
+namespace shoal {
+
+void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernels& method, ThreadPool& pool,
+                   StageClock& clock, StageDigests* digests) {
+  const std::size_t items = f.bins.items.size();
+  const std::size_t tiles = static_cast<std::size_t>(f.bin_grid.tiles_x) * static_cast<std::size_t>(f.bin_grid.tiles_y);
+  const std::size_t regions = static_cast<std::size_t>(f.grid.regions_x) * static_cast<std::size_t>(f.grid.regions_y);
+
+  // 1 Water: where the planes are, seen from this eye. (Flat surfaces have no heights to compute.)
+  place_water(f, method);
+  clock.lap("water");
+
+  // 2 Direct: vertex -> clip -> setup -> bin -> visibility, the water's surface first.
+  kernels.water_front_end(f);
+  pool.for_each(items, [&](std::size_t item, int) { kernels.direct_front_end(f, item); });
+  clock.lap("direct.front_end");
+  pool.for_each(tiles, [&](std::size_t tile, int) { kernels.draw_tile(f, f.direct, kernels.direct_alpha, nullptr, &f.water_bins, tile); });
+  clock.lap("direct.visibility");
+  if (digests != nullptr) digests->direct(f), clock.skip();
+
+  // 3 For each body of water that shows: what lies behind its surface, and which of it each pixel sees.
+  for (WaterPass& water : f.water) {
+    const bool shows = find_region(f, kernels, water, pool);
+    clock.lap("water.region");
+    if (!shows) continue;
+    pool.for_each(items, [&](std::size_t item, int) { kernels.refracted_front_end(f, water, item); });
+    count_capped(f);
+    clock.lap("refracted.front_end");
+    pool.for_each(tiles, [&](std::size_t tile, int) {
+      if (f.tile_active[tile] != 0) kernels.draw_tile(f, f.refracted, method.refracted_alpha, &water, nullptr, tile);
+    });
+    clock.lap("refracted.visibility");
+    if (digests != nullptr) digests->refracted(f), clock.skip();
+
+    if (water.optics.eye_below) {
+      const WaterPass mirrored = mirrored_pass(water);
+      pool.for_each(items, [&](std::size_t item, int) { kernels.mirrored_front_end(f, mirrored, item); });
+      clock.lap("reflected.front_end");
+      pool.for_each(tiles, [&](std::size_t tile, int) {
+        if (f.tile_active[tile] != 0) kernels.draw_tile(f, f.mirrored, kernels.mirrored_alpha, &mirrored, nullptr, tile);
+      });
+      clock.lap("reflected.visibility");
+      if (digests != nullptr) digests->reflected(f), clock.skip();
+    }
+
+    pool.for_each(regions, [&](std::size_t region, int) {
+      if (f.region_of_body[region] != 0) method.narrow(f, water, region);
+    });
+    clock.lap("narrow");
+  }
+
+  // 4 Resolve, light, post: visible ids to 8-bit pixels, region by region while it is in cache.
+  pool.for_each(regions, [&](std::size_t region, int) { method.shade(f, region); });
+  clock.lap("shade");
+  if (digests != nullptr) digests->shaded(f), clock.skip();
+}
+
+}  // namespace shoal

@@ -1,0 +1,103 @@
+// The method-independent kernels of one ISA.
+#include "refraction/kernels.h"
+
+#include "raster/visibility.h"
+#include "refraction/pixel_stage.h"
+#include "refraction/water_programs.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+namespace {
+
+std::uint32_t end_of_item(const FrameData& f, std::uint32_t first) {
+  return first + f.bins.chunks_per_item < f.bins.chunk_count ? first + f.bins.chunks_per_item : f.bins.chunk_count;
+}
+
+void direct_front_end(FrameData& f, std::size_t item) {
+  const std::uint32_t first = static_cast<std::uint32_t>(item) * f.bins.chunks_per_item;
+  const DirectProgram program{f.view, f.frustum};
+  FrontEnd<DirectProgram>(f.geometry, program, f.direct_pass, f.bins.items[item]).run(first, end_of_item(f, first), kNoId);
+}
+
+void water_front_end(FrameData& f) {
+  const DirectProgram program{f.view, f.frustum};
+  for (std::size_t body = 0; body + 1 < f.outline_first_chunk.size(); ++body) {
+    FrontEnd<DirectProgram>(f.water_geometry, program, f.direct_pass, f.water_bins.items[body])
+        .run(f.outline_first_chunk[body], f.outline_first_chunk[body + 1], kFirstWaterId + static_cast<std::int32_t>(body));
+  }
+}
+
+void refracted_front_end(FrameData& f, const WaterPass& water, std::size_t item) {
+  const std::uint32_t first = static_cast<std::uint32_t>(item) * f.bins.chunks_per_item;
+  const RefractedProgram program{{water, f.view}};
+  FrontEnd<RefractedProgram>(f.geometry, program, water.pass, f.bins.items[item]).run(first, end_of_item(f, first), kNoId);
+}
+
+void mirrored_front_end(FrameData& f, const WaterPass& water, std::size_t item) {
+  const std::uint32_t first = static_cast<std::uint32_t>(item) * f.bins.chunks_per_item;
+  const MirroredProgram program{{water, f.view}};
+  FrontEnd<MirroredProgram>(f.geometry, program, water.pass, f.bins.items[item]).run(first, end_of_item(f, first), kNoId);
+}
+
+// Where straight view rays meet the triangle.
+std::uint32_t direct_alpha(const FrameData& f, const WaterPass*, std::int32_t id, int x_px, int y_px, std::uint32_t cover) {
+  return alpha_bits(f, block_rays(f.view, make_block(f.grid, x_px, y_px)), pixel_ray_differential<WideF>(f.view), id, cover);
+}
+
+// Where the mirrored ray meets it.
+std::uint32_t mirrored_alpha(const FrameData& f, const WaterPass* water, std::int32_t id, int x_px, int y_px,
+                             std::uint32_t cover) {
+  const Ray<WideF> ray = block_rays(f.view, make_block(f.grid, x_px, y_px));
+  const ExactRay<WideF> hit = exact_ray(water->optics, ray);
+  const RayDifferential<WideF> at = at_crossing(ray, pixel_ray_differential<WideF>(f.view), hit);
+  return alpha_bits(f, {hit.crossing_world, hit.reflected}, reflected_differential(at, hit), id, cover);
+}
+
+// The pass's alpha test as the tile's rasterizer takes it.
+struct PassAlpha {
+  static constexpr bool kTests = true;
+  const FrameData& f;
+  const WaterPass* water;
+  AlphaTest test;
+  WideM operator()(std::int32_t id, int x_px, int y_px, WideM cover) const {
+    return mask_from_bits(test(f, water, id, x_px, y_px, to_bits(cover)));
+  }
+};
+
+void draw_tile(FrameData& f, VisibilityBuffer& out, AlphaTest alpha, const WaterPass* water, const PassBins* early,
+               std::size_t tile) {
+  const int size = f.bin_grid.tile_px;
+  const int x0 = static_cast<int>(tile % static_cast<std::size_t>(f.bin_grid.tiles_x)) * size;
+  const int y0 = static_cast<int>(tile / static_cast<std::size_t>(f.bin_grid.tiles_x)) * size;
+  const PassAlpha pass_alpha{f, water, alpha};
+  TileRaster<PassAlpha> raster(out, pass_alpha, x0, y0, min(x0 + size, f.grid.width_px), min(y0 + size, f.grid.height_px));
+  raster.clear();
+  if (early != nullptr)
+    for (const BinItem& item : early->items) raster.draw(item, static_cast<std::uint32_t>(tile));
+  for (const BinItem& item : f.bins.items) raster.draw(item, static_cast<std::uint32_t>(tile));
+}
+
+std::uint8_t water_in_region(const FrameData& f, std::int32_t body, std::size_t region, std::uint32_t& pixels) {
+  std::uint8_t flags = 0;
+  for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
+    const WideM here = (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + body)) & block.in_frame;
+    const std::uint32_t bits = to_bits(here);
+    if (bits == 0) return;
+    pixels += static_cast<std::uint32_t>(__builtin_popcount(bits));
+    flags |= 1;
+    if (block.x_px % kRegionSize == 0) flags |= 2;
+    if (block.x_px % kRegionSize == kRegionSize - kBlockSize) flags |= 4;
+    if (block.y_px % kRegionSize == 0) flags |= 8;
+    if (block.y_px % kRegionSize == kRegionSize - kBlockSize) flags |= 16;
+  });
+  return flags;
+}
+
+}  // namespace
+
+FrameKernels make_frame_kernels() {
+  return {&direct_front_end, &water_front_end, &refracted_front_end, &mirrored_front_end, &draw_tile, &direct_alpha,
+          &mirrored_alpha, &water_in_region};
+}
+
+}  // namespace shoal::inline SHOAL_ISA_NS

@@ -1,0 +1,54 @@
+// The kernels of a frame behind function pointers: one table an ISA, and one an ISA and method.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "refraction/frame_data.h"
+
+namespace shoal {
+
+// Which of the covered pixels (bit i: lane i of the block at x_px, y_px) a masked triangle keeps: its material is asked
+// where the pass's ray meets it.
+using AlphaTest = std::uint32_t (*)(const FrameData&, const WaterPass*, std::int32_t id, int x_px, int y_px,
+                                    std::uint32_t cover);
+
+// What is the same for every method.
+struct FrameKernels {
+  // Item `item` of the direct pass: chunks through vertex, clip, setup into its bins.
+  void (*direct_front_end)(FrameData&, std::size_t item);
+  // The outlines of the water, all in one item: they are drawn first.
+  void (*water_front_end)(FrameData&);
+  // The same chunks at their virtual positions (WaterPass::map), or mirrored.
+  void (*refracted_front_end)(FrameData&, const WaterPass&, std::size_t item);
+  void (*mirrored_front_end)(FrameData&, const WaterPass&, std::size_t item);
+  // Bins to visibility, one tile; `early` bins first where there are any; `water` is the pass's, null for the direct one.
+  void (*draw_tile)(FrameData&, VisibilityBuffer& out, AlphaTest alpha, const WaterPass* water, const PassBins* early,
+                    std::size_t tile);
+  AlphaTest direct_alpha, mirrored_alpha;
+  // Which pixels of a 64-pixel region show body b: 0 none; bit 0 some, bits 1 to 4 some within 4 px of the left, right,
+  // top, bottom side. Their count is added.
+  std::uint8_t (*water_in_region)(const FrameData&, std::int32_t body, std::size_t region, std::uint32_t& pixels);
+};
+
+// What a method brings: its broad phase and its narrow phase (refraction/methods/method.h).
+struct MethodKernels {
+  BroadPhase (*map)(const WaterBody&, const View&);
+  AlphaTest refracted_alpha;
+  void (*narrow)(FrameData&, const WaterPass&, std::size_t region);
+  // Resolve, light, post: one region of the frame.
+  void (*shade)(FrameData&, std::size_t region);
+};
+
+struct Method {
+  const char* name;
+  const char* description;
+  const char* source;
+  MethodKernels kernels;
+};
+
+// Throws UsageError for an unknown name.
+const Method& find_method(const std::string& name, Isa isa);
+const FrameKernels& frame_kernels(Isa isa);
+
+}  // namespace shoal

@@ -1,0 +1,63 @@
+// Narrow phase, last step (refraction/narrow/confirm_hit.h).
+#include "refraction/narrow/confirm_hit.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+namespace {
+
+struct TriangleTest {
+  WideF t;
+  WideM inside;  // in front of the ray's origin and within the triangle, up to rounding
+};
+
+SHOAL_INLINE TriangleTest test_triangles(const GeometryView& g, const Ray<WideF>& ray, WideI id, WideM active) {
+  constexpr float kSlack = 1e-5f;  // in barycentrics: shared edges must not fall between two triangles
+  Vec3<WideF> p0{}, e1{}, e2{};
+  for_each_distinct(id, active, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
+    const Geometry::TriangleRecord& r = g.triangles[one];
+    const Vec3f a = g.vertices[r.vertex[0]].position_world;
+    const Vec3f b = g.vertices[r.vertex[1]].position_world - a, c = g.vertices[r.vertex[2]].position_world - a;
+    p0 = select<WideF>(lanes, broadcast<WideF>(a), p0);
+    e1 = select<WideF>(lanes, broadcast<WideF>(b), e1);
+    e2 = select<WideF>(lanes, broadcast<WideF>(c), e2);
+  });
+  const TriangleHit<WideF> hit = intersect_triangle(ray, p0, e1, e2);
+  const WideM inside = active & hit.valid & (hit.t > WideF(0.0f)) & (hit.u >= WideF(-kSlack)) & (hit.v >= WideF(-kSlack)) &
+                       (hit.u + hit.v <= WideF(1.0f + kSlack));
+  return {hit.t, inside};
+}
+
+// Ids of sixteen pixels, any place of the frame.
+SHOAL_INLINE WideI ids_at(const VisibilityBuffer& visibility, WideI x, WideI y, WideM lanes) {
+  const WideI block = (y >> 2) * WideI(visibility.grid.blocks_x) + (x >> 2);
+  const WideI slot = (block << 4) + ((y & WideI(3)) << 2) + (x & WideI(3));
+  return gather(visibility.id.data(), slot, lanes, WideI(kNoId));
+}
+
+}  // namespace
+
+WideI confirm_hit(const GeometryView& g, const VisibilityBuffer& visibility,
+                                                   const Ray<WideF>& ray, WideI own, WideI x_px, WideI y_px, WideM lanes) {
+  const WideM drawn = lanes & (own >= WideI(0)) & (own != WideI(kNoId));
+  WideM missing = lanes;
+  if (any(drawn)) missing = lanes & !test_triangles(g, ray, own, drawn).inside;
+  if (none(missing)) return own;
+  WideI best = own;
+  WideF best_t(3e38f);
+  const WideI x_last(visibility.grid.width_px - 1), y_last(visibility.grid.height_px - 1);
+  for (int i = 0; i < 9; ++i) {
+    if (i == 4) continue;
+    const WideI x = x_px + WideI(i % 3 - 1), y = y_px + WideI(i / 3 - 1);
+    const WideM there = missing & (x >= WideI(0)) & (x <= x_last) & (y >= WideI(0)) & (y <= y_last);
+    const WideI id = ids_at(visibility, x, y, there);
+    const WideM candidate = there & (id >= WideI(0)) & (id != WideI(kNoId)) & (id != own) & (id != best);
+    if (none(candidate)) continue;
+    const TriangleTest test = test_triangles(g, ray, id, candidate);
+    const WideM better = test.inside & (test.t < best_t);
+    best = select(better, id, best);
+    best_t = select(better, test.t, best_t);
+  }
+  return best;
+}
+
+}  // namespace shoal::inline SHOAL_ISA_NS

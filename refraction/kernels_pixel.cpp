@@ -1,0 +1,70 @@
+// Attributes, material and light of what sixteen rays hit: one copy an ISA, for every pass and method.
+#include "raster/light.h"
+#include "refraction/pixel_stage.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+// What sunlight keeps on its way through the water down to a point: Fresnel at the flat surface and absorption along
+// the refracted ray; 1 above the plane. Without a directional light, straight down.
+static Vec3<WideF> light_under_water(const WaterPass& water, const Lighting& lighting, Vec3<WideF> position) {
+  const WaterBody& body = *water.body;
+  const WideF depth_m = max(-dot(position - broadcast<WideF>(body.origin), broadcast<WideF>(body.normal)), WideF(0.0f));
+  float cosine = 1.0f;
+  if (!lighting.directional.empty()) cosine = min(max(-dot(lighting.directional[0].direction_world, body.normal), 0.05f), 1.0f);
+  const float eta = 1.0f / body.ior;
+  const float sine2 = eta * eta * (1.0f - cosine * cosine);
+  const float cosine_water = sqrt(max(1.0f - sine2, 0.01f));
+  const float enters = 1.0f - fresnel_dielectric(cosine, eta);
+  const WideM under = depth_m > WideF(0.0f);
+  const Vec3<WideF> kept = absorbed(body, depth_m * WideF(1.0f / cosine_water)) * WideF(enters);
+  const Vec3<WideF> one = broadcast<WideF>(Vec3f{1, 1, 1});
+  return select<WideF>(under, kept, one);
+}
+
+void shade_hits(const FrameData& f, const Ray<WideF>& ray,
+                                                 const RayDifferential<WideF>& differential, WideI id, WideM active,
+                                                 const WaterPass* water, ShadedLanes& out) {
+  PixelAttributes<WideF> a;
+  resolve_attributes(f.geometry, ray, differential, id, active, a);
+  const Vec3<WideF> to_eye = -normalize(ray.direction_world);
+
+  alignas(64) std::int32_t ids[16], materials[16];
+  id.store(ids);
+  for (int i = 0; i < 16; ++i) materials[i] = 0;
+  for (std::uint32_t m = to_bits(active); m != 0; m &= m - 1) {
+    const int lane = __builtin_ctz(m);
+    materials[lane] = static_cast<std::int32_t>(f.geometry.triangles[ids[lane]].material);
+  }
+  const Materials& all_materials = f.scene->materials;
+  bool first = true;
+  WideM unlit = mask_from_bits(0);
+  for_each_distinct(WideI::load(materials), active, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
+    const Material& material = f.geometry.materials[one];
+    const SurfaceSample<WideF> s = make_surface<WideF>(material, all_materials, a.position_world, a.normal_world, a.uv,
+                                                       a.duv_dx, a.duv_dy, a.color, to_eye, lanes);
+    if (material.unlit) unlit = unlit | lanes;
+    if (first) {
+      out.surface = s;
+      first = false;
+      return;
+    }
+    SurfaceSample<WideF>& to = out.surface;
+    to.normal_world = select<WideF>(lanes, s.normal_world, to.normal_world);
+    to.base_color = select<WideF>(lanes, s.base_color, to.base_color);
+    to.alpha = select(lanes, s.alpha, to.alpha);
+    to.metallic = select(lanes, s.metallic, to.metallic);
+    to.roughness = select(lanes, s.roughness, to.roughness);
+    to.emissive = select<WideF>(lanes, s.emissive, to.emissive);
+  });
+  const Vec3<WideF> light_scale = water != nullptr ? light_under_water(*water, f.scene->lighting, a.position_world)
+                                                   : broadcast<WideF>(Vec3f{1, 1, 1});
+  out.radiance = shade<WideF>(out.surface, unlit, to_eye, f.scene->lighting, light_scale);
+  out.t = a.t;
+}
+
+std::uint32_t alpha_bits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential,
+                         std::int32_t id, std::uint32_t cover) {
+  return to_bits(alpha_cut(f.geometry, f.scene->materials, ray, differential, id, mask_from_bits(cover)));
+}
+
+}  // namespace shoal::inline SHOAL_ISA_NS

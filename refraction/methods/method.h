@@ -1,0 +1,55 @@
+// What a method is made of, and the stages built from it.
+//
+// A method that shades after is a struct with two templates (see two_phase.cpp, the shortest real one):
+//
+//   struct MyMethod {
+//     static BroadPhase map(const WaterBody&, const View&);          // the broad phase: geometry to virtual positions
+//     template <class F> static WaterRays<F> rays(const WaterPass&,  // the ray that a water pixel follows
+//         Ray<F> view_ray, RayDifferential<F> differential);
+//   };
+//
+// MethodStages<MyMethod>::kernels() makes the frame's stages of it.
+#pragma once
+
+#include "refraction/kernels.h"
+#include "refraction/narrow/confirm_hit.h"
+#include "refraction/pixel_stage.h"
+#include "refraction/shade_block.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+template <class M>
+struct MethodStages {
+  // Alpha test of the refracted pass: where the method's ray meets the triangle.
+  static std::uint32_t refracted_alpha(const FrameData& f, const WaterPass* water, std::int32_t id, int x_px, int y_px,
+                                       std::uint32_t cover) {
+    const Ray<WideF> view_ray = block_rays(f.view, make_block(f.grid, x_px, y_px));
+    const WaterRays<WideF> r = M::template rays<WideF>(*water, view_ray, pixel_ray_differential<WideF>(f.view));
+    return alpha_bits(f, r.refracted, r.refracted_differential, id, cover);
+  }
+
+  static void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
+    const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
+    for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
+      const WideM here = (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
+      if (none(here)) return;
+      const WaterRays<WideF> rays = M::template rays<WideF>(water, block_rays(f.view, block), differential);
+      const WideI x = WideI(block.x_px) + block_x(), y = WideI(block.y_px) + block_y();
+      const WideI own = WideI::load(f.refracted.id.data() + block.offset);
+      const WideI id = confirm_hit(f.geometry, f.refracted, rays.refracted, own, x, y, here & rays.at_surface.transmitted);
+      store_masked(f.hits.refracted_id.data() + block.offset, id, here);
+      if (!water.optics.eye_below) return;
+      const WideI mirrored = WideI::load(f.mirrored.id.data() + block.offset);
+      const WideI mirror_id = confirm_hit(f.geometry, f.mirrored, rays.reflected, mirrored, x, y, here);
+      store_masked(f.hits.mirrored_id.data() + block.offset, mirror_id, here);
+    });
+  }
+
+  static void shade(FrameData& f, std::size_t region) { shade_region<M>(f, region); }
+
+  static constexpr MethodKernels kernels() {
+    return {&M::map, &refracted_alpha, &narrow, &shade};
+  }
+};
+
+}  // namespace shoal::inline SHOAL_ISA_NS

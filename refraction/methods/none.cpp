@@ -1,0 +1,33 @@
+// none: the same passes, surface and Fresnel, but rays go straight through.
+//
+// Source  Liu et al. 2020, Table 3, last column.
+#include "refraction/methods/method.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+namespace {
+struct None {
+  // Index 1 makes the broad phase the identity.
+  static BroadPhase map(const WaterBody& body, const View& view) {
+    return make_broad_phase(body.origin, body.normal, 1.0f, view);
+  }
+
+  template <class F>
+  SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
+    const ExactRay<F> hit = exact_ray(water.optics, view_ray);
+    const RayDifferential<F> crossing = at_crossing(view_ray, differential, hit);
+    return {hit,
+            {hit.crossing_world, hit.incident},
+            {hit.crossing_world, hit.reflected},
+            crossing,
+            reflected_differential(crossing, hit)};
+  }
+};
+}  // namespace
+
+Method none() {
+  return {"none", "rays go straight through the water; same surface, Fresnel and absorption", "Liu et al. 2020, Table 3",
+          MethodStages<None>::kernels()};
+}
+
+}  // namespace shoal::inline SHOAL_ISA_NS

@@ -1,0 +1,33 @@
+// two-phase: ours, the default. Exact path solver, error-bounded subdivision, and the true refracted ray against the
+// triangle that the broad phase found; shaded once, where that ray truly hits.
+//
+// Source  Steel 2024 (horizontal-preserving virtual space); Liu et al. 2020 (broad and narrow phase).
+// Differs From both: the solver is exact (path_solver.h), edges are split to a bound in pixels (broad_phase.h), and the
+//         point is an intersection instead of a sample of a shaded picture, so no texture or edge is resampled.
+#include "refraction/methods/method.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+namespace {
+struct TwoPhase {
+  static BroadPhase map(const WaterBody& body, const View& view) { return make_broad_phase(body, view); }
+
+  template <class F>
+  SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
+    const ExactRay<F> hit = exact_ray(water.optics, view_ray);
+    const RayDifferential<F> crossing = at_crossing(view_ray, differential, hit);
+    return {hit,
+            {hit.crossing_world, hit.refracted},
+            {hit.crossing_world, hit.reflected},
+            refracted_differential(crossing, hit),
+            reflected_differential(crossing, hit)};
+  }
+};
+}  // namespace
+
+Method two_phase() {
+  return {"two-phase", "exact solver, error-bounded subdivision, true ray against the primitive, shaded after",
+          "Shoal; after Steel 2024 and Liu et al. 2020", MethodStages<TwoPhase>::kernels()};
+}
+
+}  // namespace shoal::inline SHOAL_ISA_NS

@@ -1,0 +1,51 @@
+// The registry: which kernels an ISA has, and which methods there are. Adding a method touches methods.def alone.
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "refraction/kernels_table.h"
+#include "refraction/renderer.h"
+
+namespace shoal {
+
+namespace {
+
+const KernelTable& table_of(Isa isa) {
+  switch (isa) {
+#if defined(__x86_64__)
+    case Isa::kSse42: return kernel_table_isa_sse42();
+    case Isa::kAvx2: return kernel_table_isa_avx2();
+    case Isa::kAvx512: return kernel_table_isa_avx512();
+#elif defined(__aarch64__)
+    case Isa::kNeon: return kernel_table_isa_neon();
+#endif
+    default: return kernel_table_isa_scalar();
+  }
+}
+
+}  // namespace
+
+const FrameKernels& frame_kernels(Isa isa) { return table_of(isa).frame; }
+
+const Method& find_method(const std::string& name, Isa isa) {
+  const KernelTable& table = table_of(isa);
+  std::string known;
+  for (std::size_t i = 0; i < table.method_count; ++i) {
+    if (name == table.methods[i].name) return table.methods[i];
+    known += (i == 0 ? "" : ", ") + std::string(table.methods[i].name);
+  }
+  throw UsageError("method '" + name + "' is unknown; expected one of " + known);
+}
+
+const std::vector<MethodInfo>& method_infos() {
+  static const std::vector<MethodInfo> infos = [] {
+    std::vector<MethodInfo> list;
+    const KernelTable& table = table_of(Isa::kScalar);
+    for (std::size_t i = 0; i < table.method_count; ++i)
+      list.push_back({table.methods[i].name, table.methods[i].description, table.methods[i].source, {}});
+    return list;
+  }();
+  return infos;
+}
+
+}  // namespace shoal

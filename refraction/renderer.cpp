@@ -1,0 +1,207 @@
+#include "refraction/renderer.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/float_mode.h"
+#include "core/thread_pool.h"
+#include "refraction/aov.h"
+#include "refraction/frame.h"
+#include "refraction/sample_positions.h"
+#include "refraction/stage_digests.h"
+
+namespace shoal {
+
+namespace {
+
+void check(bool ok, const std::string& what) {
+  if (!ok) throw UsageError(what);
+}
+
+void check_settings(const FrameSettings& s, const RenderScene& scene) {
+  check(s.width_px >= 1 && s.width_px <= 16384 && s.height_px >= 1 && s.height_px <= 16384,
+        "size " + std::to_string(s.width_px) + "x" + std::to_string(s.height_px) + " is out of range; expected 1x1 to 16384x16384");
+  check(s.spp >= 1 && s.spp <= 256, "spp " + std::to_string(s.spp) + " is out of range; expected 1 to 256");
+  check(s.threads >= 0 && s.threads <= 256, "threads " + std::to_string(s.threads) + " is out of range; expected 1 to 256");
+  check(s.tile_px >= 16 && s.tile_px <= 256 && (s.tile_px & (s.tile_px - 1)) == 0,
+        "tile " + std::to_string(s.tile_px) + " is not allowed; expected a power of two from 16 to 256");
+  check(s.anisotropy == 1, "anisotropy " + std::to_string(s.anisotropy) + " has not come yet; expected 1");
+  check(s.exposure_stops >= -100.0f && s.exposure_stops <= 100.0f, "exposure is out of range; expected -100 to 100 stops");
+  const std::vector<Isa> isas = supported_isas();
+  check(std::find(isas.begin(), isas.end(), s.isa) != isas.end(), std::string("isa ") + isa_name(s.isa) + " does not run on this machine");
+  check(s.method_options.empty(), "option '" + (s.method_options.empty() ? "" : s.method_options.begin()->first) + "' is unknown to method " + s.method);
+  check(scene.geometry.triangles.size() < static_cast<std::size_t>(kNoId), "the scene has too many triangles; expected fewer than 2147483647");
+  check(scene.waters.size() < static_cast<std::size_t>(kMaxWaterBodies), "the scene has too many bodies of water");
+}
+
+GeometryView view_of(const Geometry& g, const Materials& materials) {
+  return {g.x_world.data(),
+          g.y_world.data(),
+          g.z_world.data(),
+          {g.corner0.data(), g.corner1.data(), g.corner2.data()},
+          g.chunks.data(),
+          g.vertices.data(),
+          g.colors.empty() ? nullptr : g.colors.data(),
+          g.triangles.data(),
+          materials.materials.data(),
+          materials.textures.data()};
+}
+
+// Items of about equal work, enough of them for any number of threads; results do not depend on their size.
+PassBins make_bins(std::size_t chunk_count) {
+  constexpr std::size_t kItems = 128, kLeastChunks = 4;
+  PassBins bins;
+  bins.chunk_count = static_cast<std::uint32_t>(chunk_count);
+  bins.chunks_per_item = static_cast<std::uint32_t>(std::max(kLeastChunks, (chunk_count + kItems - 1) / kItems));
+  bins.items.resize((chunk_count + bins.chunks_per_item - 1) / bins.chunks_per_item);
+  return bins;
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+  const RenderScene& scene;
+  const FrameKernels& kernels;
+  const Method& method;
+  ThreadPool pool;
+  FrameData frame;
+  Geometry outlines;        // of the bodies of water
+  Materials outline_materials;
+  StageClock clock;
+
+  Impl(const RenderScene& s, const FrameSettings& settings)
+      : scene(s), kernels(frame_kernels(settings.isa)), method(find_method(settings.method, settings.isa)),
+        pool(settings.threads > 0 ? settings.threads : available_threads()) {
+    build_outlines();
+    FrameData& f = frame;
+    f.scene = &scene;
+    f.settings = settings;
+    f.grid = make_frame_grid(settings.width_px, settings.height_px);
+    f.bin_grid = make_bin_grid(settings.width_px, settings.height_px, settings.tile_px);
+    f.geometry = view_of(scene.geometry, scene.materials);
+    f.water_geometry = view_of(outlines, outline_materials);
+    f.bins = make_bins(scene.geometry.chunks.size());
+    f.water_bins.items.resize(scene.waters.size());
+    allocate();
+  }
+
+  // Each body's outline as drawable of its own, seen from both sides.
+  void build_outlines() {
+    Material surface;
+    surface.double_sided = true;
+    outline_materials.materials.push_back(surface);
+    std::vector<std::uint32_t>& first_chunk = frame.outline_first_chunk;
+    for (const WaterBody& body : scene.waters) {
+      first_chunk.push_back(static_cast<std::uint32_t>(outlines.chunks.size()));
+      const std::vector<Vec3f> normals(body.outline.size(), body.normal);
+      std::vector<std::uint32_t> indices(body.outline.size());
+      for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<std::uint32_t>(i);
+      MeshView mesh;
+      mesh.positions_world = body.outline.data();
+      mesh.normals_world = normals.data();
+      mesh.indices = indices.data();
+      mesh.vertex_count = mesh.index_count = static_cast<std::uint32_t>(indices.size());
+      append_mesh(outlines, mesh);
+    }
+    first_chunk.push_back(static_cast<std::uint32_t>(outlines.chunks.size()));
+  }
+
+  bool captures() const { return frame.settings.digests || frame.settings.aovs != 0; }
+
+  void allocate() {
+    FrameData& f = frame;
+    f.direct.resize(f.grid);
+    const std::size_t regions = static_cast<std::size_t>(f.grid.regions_x) * static_cast<std::size_t>(f.grid.regions_y);
+    f.region_of_body.resize(regions);
+    f.tile_active.resize(static_cast<std::size_t>(f.bin_grid.tiles_x) * static_cast<std::size_t>(f.bin_grid.tiles_y));
+    if (!scene.waters.empty()) {
+      f.refracted.resize(f.grid);
+      f.mirrored.resize(f.grid);
+      f.hits.resize(f.grid);
+    }
+    if (captures()) {
+      for (auto& plane : f.gbuffer.plane) plane.resize(f.grid.pixel_slots());
+      HitPoints& h = f.hit_points;
+      for (auto* plane : {&h.x_world, &h.y_world, &h.z_world, &h.virtual_x, &h.virtual_y, &h.virtual_z})
+        plane->resize(f.grid.pixel_slots());
+      h.kind.resize(f.grid.pixel_slots());
+      h.id.resize(f.grid.pixel_slots());
+    }
+    if (f.settings.spp > 1 || f.settings.digests || f.settings.keep_linear)
+      for (auto* plane : {&f.lit.red, &f.lit.green, &f.lit.blue, &f.lit.alpha}) plane->resize(f.grid.pixel_slots());
+    f.srgb8.resize(static_cast<std::size_t>(f.settings.width_px) * static_cast<std::size_t>(f.settings.height_px) * 3);
+  }
+
+  void set_sample(const Camera& camera, Vec2f offset_px) {
+    FrameData& f = frame;
+    f.view = make_view(camera, f.settings.width_px, f.settings.height_px, offset_px);
+    f.frustum = make_frustum(f.view, 0, 0, f.settings.width_px - 1, f.settings.height_px - 1);
+    PassSettings& p = f.direct_pass;
+    p = PassSettings{};
+    p.width_px = f.settings.width_px, p.height_px = f.settings.height_px;
+    p.centre_px = f.view.centre_px;
+    p.grid = f.bin_grid;
+    p.x_max = f.settings.width_px - 1, p.y_max = f.settings.height_px - 1;
+  }
+
+  void sample(StageDigests* digests) { render_sample(frame, kernels, method.kernels, pool, clock, digests); }
+
+  void render(const Camera& camera, Frame& out) {
+    const FloatModeGuard mode;
+    FrameData& f = frame;
+    StageDigests digests;
+    StageDigests* wanted = f.settings.digests ? &digests : nullptr;
+    clock.reset();
+    f.water_pixels = f.subdivision_capped = 0;
+    f.sample_count = f.settings.spp;
+    f.sample = 0;
+    if (f.settings.spp > 1) {
+      // Buffers beside the picture are those of the pixels' centres.
+      if (captures()) {
+        set_sample(camera, {0, 0});
+        f.capture = true, f.accumulate = false, f.last_sample = false;
+        sample(wanted);
+        out.water_pixels = f.water_pixels;
+        copy_aovs(f, scene, out);
+      }
+      f.capture = false, f.accumulate = true;
+      for (int s = 0; s < f.settings.spp; ++s) {
+        set_sample(camera, sample_position(s, f.settings.spp));
+        f.sample = s;
+        f.last_sample = s + 1 == f.settings.spp;
+        f.water_pixels = 0;
+        sample(nullptr);
+        if (s == 0 && !captures()) out.water_pixels = f.water_pixels;
+      }
+    } else {
+      set_sample(camera, {0, 0});
+      f.capture = captures(), f.accumulate = true, f.last_sample = true;
+      sample(wanted);
+      out.water_pixels = f.water_pixels;
+    }
+    out.width_px = f.settings.width_px, out.height_px = f.settings.height_px;
+    out.srgb8 = f.srgb8;
+    clock.lap("output");
+    if (f.settings.spp == 1) copy_aovs(f, scene, out);
+    if (f.settings.keep_linear) copy_linear(f, out);
+    if (wanted != nullptr) digests.picture(f);
+    out.digests = digests.list();
+    out.stages_ms = clock.stages();
+    out.frame_ms = clock.total_ms();
+    out.subdivision_capped = f.subdivision_capped;
+  }
+};
+
+Renderer::Renderer(const RenderScene& scene, const FrameSettings& settings) {
+  check_settings(settings, scene);
+  const FloatModeGuard mode;
+  impl_ = std::make_unique<Impl>(scene, settings);
+}
+Renderer::~Renderer() = default;
+
+void Renderer::render(const Camera& camera, double /*time_s*/, Frame& frame) { impl_->render(camera, frame); }
+int Renderer::threads() const { return impl_->pool.threads(); }
+
+std::string picture_digest(const Frame& frame) { return digest_hex(frame.srgb8.data(), frame.srgb8.size()); }
+
+}  // namespace shoal

@@ -1,0 +1,112 @@
+#include "refraction/water_region.h"
+
+#include <algorithm>
+#include <atomic>
+#include <vector>
+
+namespace shoal {
+
+namespace {
+
+// Geometry is clipped this far beyond the plane, so that no seam opens between direct and refracted edges.
+constexpr float kOverlap_m = 0.02f;
+
+// Seen along the normal, is p inside of the triangle (either orientation)?
+bool inside_triangle(Vec3f p, Vec3f a, Vec3f b, Vec3f c, Vec3f normal) {
+  const float ab = dot(cross(b - a, p - a), normal), bc = dot(cross(c - b, p - b), normal), ca = dot(cross(a - c, p - c), normal);
+  return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+}
+
+bool contains(const WaterBody& body, Vec3f p) {
+  const float height = dot(p - body.origin, body.normal);
+  if (!(height < 0.0f && height > -body.depth_m)) return false;
+  for (std::size_t i = 0; i + 2 < body.outline.size(); i += 3)
+    if (inside_triangle(p, body.outline[i], body.outline[i + 1], body.outline[i + 2], body.normal)) return true;
+  return false;
+}
+
+}  // namespace
+
+void place_water(FrameData& f, const MethodKernels& method) {
+  const std::vector<WaterBody>& bodies = f.scene->waters;
+  f.water.resize(bodies.size());
+  f.eye_in_water = -1;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    WaterPass& w = f.water[b];
+    w = WaterPass{};
+    w.body = &bodies[b];
+    w.index = static_cast<std::int32_t>(b);
+    w.optics = make_broad_phase(bodies[b], f.view);
+    w.map = method.map(bodies[b], f.view);
+    w.keep = {w.map.far_normal, kOverlap_m - dot(w.map.far_normal, w.map.plane_origin)};
+    if (f.eye_in_water < 0 && contains(bodies[b], f.view.camera.position_world)) f.eye_in_water = w.index;
+  }
+}
+
+bool find_region(FrameData& f, const FrameKernels& kernels, WaterPass& water, ThreadPool& pool) {
+  const int nx = f.grid.regions_x, ny = f.grid.regions_y;
+  const std::size_t regions = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
+  std::vector<std::uint8_t> flags(regions);
+  std::atomic<std::uint64_t> pixels{0};
+  pool.for_each(regions, [&](std::size_t region, int) {
+    std::uint32_t count = 0;
+    flags[region] = kernels.water_in_region(f, water.index, region, count);
+    pixels.fetch_add(count, std::memory_order_relaxed);
+  });
+  f.water_pixels += pixels.load();
+  if (pixels.load() == 0) return false;
+
+  // The narrow phase looks one pixel beyond: a region whose side shows water reaches into its neighbour.
+  std::vector<std::uint8_t>& region = f.region_of_body;
+  std::fill(region.begin(), region.end(), std::uint8_t{0});
+  int x0 = nx, y0 = ny, x1 = -1, y1 = -1;
+  for (int y = 0; y < ny; ++y)
+    for (int x = 0; x < nx; ++x) {
+      const int has = flags[static_cast<std::size_t>(y * nx + x)];
+      if (has == 0) continue;
+      const int left = (has & 2) != 0 ? 1 : 0, right = (has & 4) != 0 ? 1 : 0;
+      const int top = (has & 8) != 0 ? 1 : 0, bottom = (has & 16) != 0 ? 1 : 0;
+      for (int j = std::max(y - top, 0); j <= std::min(y + bottom, ny - 1); ++j)
+        for (int i = std::max(x - left, 0); i <= std::min(x + right, nx - 1); ++i) {
+          region[static_cast<std::size_t>(j * nx + i)] = 1;
+          x0 = std::min(x0, i), y0 = std::min(y0, j), x1 = std::max(x1, i), y1 = std::max(y1, j);
+        }
+    }
+  std::fill(f.tile_active.begin(), f.tile_active.end(), std::uint8_t{0});
+  const BinGrid& grid = f.bin_grid;
+  for (int ty = 0; ty < grid.tiles_y; ++ty)
+    for (int tx = 0; tx < grid.tiles_x; ++tx) {
+      const int rx0 = (tx << grid.tile_shift) / kRegionSize, ry0 = (ty << grid.tile_shift) / kRegionSize;
+      const int rx1 = std::min((((tx + 1) << grid.tile_shift) - 1) / kRegionSize, nx - 1);
+      const int ry1 = std::min((((ty + 1) << grid.tile_shift) - 1) / kRegionSize, ny - 1);
+      std::uint8_t active = 0;
+      for (int y = ry0; y <= ry1; ++y)
+        for (int x = rx0; x <= rx1; ++x) active = static_cast<std::uint8_t>(active | region[static_cast<std::size_t>(y * nx + x)]);
+      f.tile_active[static_cast<std::size_t>(ty * grid.tiles_x + tx)] = active;
+    }
+
+  PassSettings& pass = water.pass;
+  pass = f.direct_pass;
+  pass.x_min = x0 * kRegionSize, pass.y_min = y0 * kRegionSize;
+  pass.x_max = std::min((x1 + 1) * kRegionSize, f.grid.width_px) - 1;
+  pass.y_max = std::min((y1 + 1) * kRegionSize, f.grid.height_px) - 1;
+  pass.tile_active = f.tile_active.data();
+  water.frustum = make_frustum(f.view, pass.x_min, pass.y_min, pass.x_max, pass.y_max);
+  return true;
+}
+
+WaterPass mirrored_pass(const WaterPass& refracted) {
+  WaterPass w = refracted;
+  w.mirrored = true;
+  // The eye's side of the plane is what it mirrors.
+  const Vec3f normal = -w.optics.far_normal;
+  w.keep = {normal, kOverlap_m - dot(normal, w.optics.plane_origin)};
+  w.pass.flip_facing = true;
+  return w;
+}
+
+void count_capped(FrameData& f) {
+  for (const BinItem& item : f.bins.items) f.subdivision_capped += item.subdivision_capped;
+}
+
+}  // namespace shoal
