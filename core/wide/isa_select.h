@@ -35,7 +35,12 @@
 
 // Everything that kernels include and that is not in SHOAL_ISA_NS must never be emitted out of line, or the linker
 // could pick the AVX-512 copy of it for all.
+#if defined(SHOAL_ISA_SCALAR)
+// Sixteen scalar lanes inlined everywhere take GCC eight times as long to compile; every machine runs this copy.
+#define SHOAL_INLINE inline
+#else
 #define SHOAL_INLINE inline __attribute__((always_inline))
+#endif
 
 // The same for a lambda: [&](...) SHOAL_LAMBDA { ... }.
 #define SHOAL_LAMBDA __attribute__((always_inline))
