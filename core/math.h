@@ -23,6 +23,13 @@ SHOAL_INLINE F upper_half(F v) {
   return as_float(as_int(v) & IntOf<F>(-4096));
 }
 
+// v, or `instead` where v is a NaN. By its bits: where a comparison feeds a clamp, Clang makes both one fmaxnm on AArch64,
+// and that lets signaling NaNs through.
+template <class F>
+SHOAL_INLINE F unless_nan(F v, F instead) {
+  return select((as_int(v) & IntOf<F>(0x7FFFFFFF)) > IntOf<F>(0x7F800000), instead, v);
+}
+
 // sin and cos of hi + lo, |hi + lo| <= pi/4. Fit errors 2^-32.5 and 2^-32.9, relative.
 template <class F>
 SHOAL_INLINE F sin_near_zero(F hi, F lo) {
@@ -119,12 +126,14 @@ SHOAL_INLINE F asin_near_zero(F s, F z) {
 template <class F>
 SHOAL_INLINE void det_sincos(F x, F& sine, F& cosine) {
   using I = IntOf<F>;
+  // The sign of a NaN is the machine's choice, so it must not reach the sign of the zero that comes out.
+  const F angle = math_detail::unless_nan(x, F(0.0f));
   F hi, lo;
   I quadrant;
-  math_detail::reduce_by_half_pi(abs(x), hi, lo, quadrant);
+  math_detail::reduce_by_half_pi(abs(angle), hi, lo, quadrant);
   const F s = math_detail::sin_near_zero(hi, lo), c = math_detail::cos_near_zero(hi, lo);
   const MaskOf<F> odd = (quadrant & I(1)) != I(0);
-  const I sine_sign = (quadrant << 30) ^ as_int(x);
+  const I sine_sign = (quadrant << 30) ^ as_int(angle);
   const I cosine_sign = (quadrant + I(1)) << 30;
   sine = flip_sign_if(select(odd, c, s), sine_sign < I(0));
   cosine = flip_sign_if(select(odd, s, c), cosine_sign < I(0));
@@ -199,18 +208,19 @@ SHOAL_INLINE F det_atan(F x) {
 // Arc sine in radians, within -pi/2..pi/2. x is clamped to -1..1; a NaN is taken as 0. Error: 2.5 ULP.
 template <class F>
 SHOAL_INLINE F det_asin(F x) {
-  const F a = select(x == x, min(abs(x), F(1.0f)), F(0.0f));
+  const F v = math_detail::unless_nan(x, F(0.0f));
+  const F a = min(abs(v), F(1.0f));
   const MaskOf<F> outer = a > F(0.5f);
   const F z = select(outer, (F(1.0f) - a) * F(0.5f), a * a);
   const F p = math_detail::asin_near_zero(select(outer, sqrt(z), a), z);
   const F r = select(outer, F(kHalfPi) - ((p + p) + F(0x1.777a5cp-25f)), p);
-  return flip_sign_if(r, as_int(x) < IntOf<F>(0));
+  return flip_sign_if(r, as_int(v) < IntOf<F>(0));
 }
 
 // Arc cosine in radians, within 0..pi. x is clamped to -1..1; a NaN is taken as 0 (pi/2). Error: 1.5 ULP, near 1 too.
 template <class F>
 SHOAL_INLINE F det_acos(F x) {
-  const F a = select(x == x, min(abs(x), F(1.0f)), F(0.0f));
+  const F a = min(math_detail::unless_nan(abs(x), F(0.0f)), F(1.0f));
   const MaskOf<F> outer = a > F(0.5f), negative = x < F(0.0f);
   const F z = select(outer, (F(1.0f) - a) * F(0.5f), a * a);
   const F p = math_detail::asin_near_zero(select(outer, sqrt(z), a), z);
@@ -223,7 +233,7 @@ SHOAL_INLINE F det_acos(F x) {
 // Error: 1.25 ULP, of the denormal spacing too where the result is denormal.
 template <class F>
 SHOAL_INLINE F det_exp2(F x) {
-  const F a = min(select(x > F(-151.0f), x, F(-151.0f)), F(129.0f));
+  const F a = min(max(math_detail::unless_nan(x, F(-151.0f)), F(-151.0f)), F(129.0f));
   const IntOf<F> k = to_int_nearest(a);
   return math_detail::exp2_of(k, a - to_float(k));
 }
@@ -232,7 +242,7 @@ SHOAL_INLINE F det_exp2(F x) {
 // Error: 1.75 ULP, of the denormal spacing too where the result is denormal.
 template <class F>
 SHOAL_INLINE F det_exp(F x) {
-  const F a = min(select(x > F(-104.5f), x, F(-104.5f)), F(89.0f));
+  const F a = min(max(math_detail::unless_nan(x, F(-104.5f)), F(-104.5f)), F(89.0f));
   const IntOf<F> k = to_int_nearest(a * F(0x1.715476p+0f));
   const F turns = to_float(k);
   // ln 2 in two parts, the first short enough for an exact product.
@@ -267,7 +277,7 @@ SHOAL_INLINE F det_log(F x) {
 template <class F>
 SHOAL_INLINE F det_pow(F x, F y) {
   const F most = F(0x1.fffffep+127f);
-  const F exponent = max(min(select(y == y, y, F(0.0f)), most), -most);
+  const F exponent = max(min(math_detail::unless_nan(y, F(0.0f)), most), -most);
   const MaskOf<F> ordinary = (x > F(0.0f)) & (x < F(kInfinity));
   F hi, lo;
   math_detail::log2_split(select(ordinary, x, F(1.0f)), hi, lo);

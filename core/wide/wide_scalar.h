@@ -135,8 +135,9 @@ SHOAL_INLINE WideF abs(WideF a) { return wide_detail::each<WideF>([&](int i) { r
 SHOAL_INLINE WideI abs(WideI a) { return max(a, -a); }
 SHOAL_INLINE WideF floor(WideF a) { return wide_detail::each<WideF>([&](int i) { return std::floor(a.lane[i]); }); }
 
-SHOAL_INLINE WideI as_int(WideF a) { return std::bit_cast<WideI>(a); }
-SHOAL_INLINE WideF as_float(WideI a) { return std::bit_cast<WideF>(a); }
+// Lane by lane: of a bit_cast of the whole struct GCC 12 makes accesses that its alias analysis then moves (AArch64, -O2).
+SHOAL_INLINE WideI as_int(WideF a) { return wide_detail::each<WideI>([&](int i) { return std::bit_cast<std::int32_t>(a.lane[i]); }); }
+SHOAL_INLINE WideF as_float(WideI a) { return wide_detail::each<WideF>([&](int i) { return std::bit_cast<float>(a.lane[i]); }); }
 SHOAL_INLINE WideF to_float(WideI a) { return wide_detail::each<WideF>([&](int i) { return float(a.lane[i]); }); }
 // v with its sign turned over where m is set (zeros and infinities too).
 SHOAL_INLINE WideF flip_sign_if(WideF v, WideM m) { return select(m, -v, v); }

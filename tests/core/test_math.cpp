@@ -130,6 +130,17 @@ SHOAL_ISA_CASE(test_trigonometric, "sin, cos, tan over all finite floats") {
     CHECK(det_tan(v) == 0.0f);
   }
   CHECK(std::bit_cast<std::uint32_t>(det_sin(-0.0f)) == 0x80000000u);
+  // The sign of a NaN is the machine's choice: it must not show. Nor may a signaling one.
+  for (const std::uint32_t nan : {0x7FC00000u, 0xFFC00000u, 0x7F800001u, 0xFF800001u}) {
+    volatile std::uint32_t hidden = nan;
+    const float v = from_bits(hidden);
+    for (const float zero : {det_sin(v), det_tan(v), det_asin(v), det_atan(v), det_exp2(v), det_exp(v)})
+      CHECK(std::bit_cast<std::uint32_t>(zero) == 0u);
+    CHECK(det_pow(2.0f, v) == 1.0f);
+    CHECK(det_pow(v, 2.0f) == 0.0f);
+    CHECK(det_log2(v) == -kInfinity);
+    CHECK(det_acos(v) == kHalfPi);
+  }
   CHECK(det_sin(kHalfPi) == 1.0f);
 }
 
@@ -343,12 +354,12 @@ std::uint64_t digest_of(Function function) {
 
 // Infinities, NaN and denormals go in too: 393 216 results a function, 12 functions.
 SHOAL_ISA_CASE(test_digest, "the same bits on every machine") {
-  CHECK(digest_of([](WideF a, WideF) { return det_sin(a); }) == 0x13BEC8A78844CDAEu);
+  CHECK(digest_of([](WideF a, WideF) { return det_sin(a); }) == 0x5E27D20F0844CDAEu);
   CHECK(digest_of([](WideF a, WideF) { return det_cos(a); }) == 0x5616DB8595A12D41u);
-  CHECK(digest_of([](WideF a, WideF) { return det_tan(a); }) == 0x7D8F7CA9B18693A7u);
+  CHECK(digest_of([](WideF a, WideF) { return det_tan(a); }) == 0xD24E67F7318693A7u);
   CHECK(digest_of([](WideF a, WideF b) { return det_atan2(a, b); }) == 0x64A84AA999A1685Fu);
   CHECK(digest_of([](WideF a, WideF) { return det_atan(a); }) == 0x074B0A1524285277u);
-  CHECK(digest_of([](WideF a, WideF) { return det_asin(a); }) == 0xBA2C569764E2B879u);
+  CHECK(digest_of([](WideF a, WideF) { return det_asin(a); }) == 0x41CDA818E4E2B879u);
   CHECK(digest_of([](WideF a, WideF) { return det_acos(a); }) == 0x2C803DD6D389E2E5u);
   CHECK(digest_of([](WideF a, WideF) { return det_exp2(a); }) == 0x94630C4C91C1AAFFu);
   CHECK(digest_of([](WideF a, WideF) { return det_exp(a); }) == 0xF02F5C73B9C456A1u);
