@@ -40,10 +40,10 @@ SHOAL_INLINE Reflectance<F> make_reflectance(const SurfaceSample<F>& s, Vec3<F> 
 //   to_light  unit
 // Returns 0 where the light is behind the surface.
 // Source: glTF 2.0, appendix B.3 (Lambert; GGX; height-correlated Smith; Schlick). Differs: D and V share one division,
-// and with h = l + v not normalized, D's 1 - (n.h)^2 (1 - a^2) is |h - n (n.h)|^2 + a^2 (n.h)^2 over |h|^2, which does not
-// cancel on smooth surfaces. As in that model, a dielectric's diffuse part loses what the half vector's Fresnel term
-// takes: at grazing views a white one reflects up to 1.3 times what it gets. Error: 2e-5 relative plus 1e-6 against double
-// (tests/raster/test_light.cpp).
+// and with h = l + v not normalized, D's 1 - (n.h)^2 (1 - a^2) is |h - n (n.h)|^2 + a^2 (n.h)^2 over |h|^2, which does
+// not cancel on smooth surfaces. As in that model, a dielectric's diffuse part loses what the half vector's Fresnel
+// term takes: at grazing views a white one reflects up to 1.3 times what it gets. Error: 2e-5 relative plus 1e-6
+// against double (tests/raster/test_light.cpp).
 template <class F>
 SHOAL_INLINE Vec3<F> reflect_light(const Reflectance<F>& r, Vec3<F> to_light, F n_dot_l) {
   const F one(1.0f);
@@ -68,7 +68,8 @@ SHOAL_INLINE Vec3<F> reflect_light(const Reflectance<F>& r, Vec3<F> to_light, F 
   return diffuse + fresnel * (Vec3<F>{specular, specular, specular} - diffuse);
 }
 
-// Irradiance over pi of the hemisphere round a direction: the mean of above and below, weighted by how far it points up.
+// Irradiance over pi of the hemisphere round a direction: the mean of above and below, weighted by how far it points
+// up.
 template <class F>
 SHOAL_INLINE Vec3<F> ambient_toward(const Lighting& lighting, Vec3<F> direction) {
   const Vec3f half_up = lighting.up_world * 0.5f;
@@ -79,8 +80,8 @@ SHOAL_INLINE Vec3<F> ambient_toward(const Lighting& lighting, Vec3<F> direction)
 
 // Scale and bias (x, y) of f0: how much of a uniform environment the specular lobe reflects.
 // Source: Karis 2014, "Physically Based Shading on Mobile" (the coefficients of his EnvBRDFApprox, after Lazarov 2013).
-// Error: against the exact integral of the lobe up to 0.28 (roughness 1 at grazing), mostly below 0.2 and on the dark side.
-// Differs: exp2(-9.28 x) is the sixteenth power of our cubic fit of exp2(-0.58 x), within 3e-4 of it
+// Error: against the exact integral of the lobe up to 0.28 (roughness 1 at grazing), mostly below 0.2 and on the dark
+// side. Differs: exp2(-9.28 x) is the sixteenth power of our cubic fit of exp2(-0.58 x), within 3e-4 of it
 // (test_light.cpp pins the fit); the bias is not below 0.
 template <class F>
 SHOAL_INLINE Vec2<F> environment_brdf(F roughness, F n_dot_v) {

@@ -29,7 +29,8 @@ namespace shoal::inline SHOAL_ISA_NS {
 SHOAL_INLINE float exposure_scale(const PostSettings& settings) { return det_exp2(settings.exposure_stops); }
 
 // The filmic curve, by channel, from scene-linear to display-linear [0, 1]. Negative values and NaN give 0.
-// Source: Narkowicz 2016, "ACES Filmic Tone Mapping Curve": his rational fit of the ACES reference and output transforms.
+// Source: Narkowicz 2016, "ACES Filmic Tone Mapping Curve": his rational fit of the ACES reference and output
+// transforms.
 template <class F>
 SHOAL_INLINE F tone_aces(F x) {
   // Beyond 2^32 the curve is flat at 1 and its square must not overflow.

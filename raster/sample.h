@@ -26,8 +26,8 @@ struct Lod {
 };
 
 // log2(x) / 2, fraction truncated. x: finite, normal, at least 1. The exponent gives the whole number at once, so that
-// addresses need not wait for the polynomial. With t = mantissa - 1, log2(1 + t) = t + t (1 - t) q(t): powers of two are
-// exact. The minimax q is our own fit. Error: 6e-5 + 2^-15 (test_texture.cpp, "level of detail").
+// addresses need not wait for the polynomial. With t = mantissa - 1, log2(1 + t) = t + t (1 - t) q(t): powers of two
+// are exact. The minimax q is our own fit. Error: 6e-5 + 2^-15 (test_texture.cpp, "level of detail").
 template <class F>
 SHOAL_INLINE Lod<F> half_log2(F x) {
   using I = IntOf<F>;
@@ -103,12 +103,14 @@ SHOAL_INLINE Tap<F> make_tap(const Sampler& sampler, const Footprint<F>& at, Int
 
 // One level of an 8-bit texture: the same for all lanes, as it mostly is in a block of pixels, or one a lane.
 template <class F>
-SHOAL_INLINE auto sample_one_level(const Texture& texture, const Sampler& sampler, const Footprint<F>& at, std::int32_t level) {
+SHOAL_INLINE auto sample_one_level(const Texture& texture, const Sampler& sampler, const Footprint<F>& at,
+                                   std::int32_t level) {
   const std::int32_t width = texture.width[level];
   const Tap<F> tap = make_tap<F>(sampler, at, IntOf<F>(width), IntOf<F>(texture.height[level]));
   return bilinear_texels(texture.rgba15.data() + texture.first_texel[level], width + 1, tap.index, tap.wx, tap.wy);
 }
-SHOAL_INLINE WideTexel sample_any_level(const Texture& texture, const Sampler& sampler, const Footprint<WideF>& at, WideI level) {
+SHOAL_INLINE WideTexel sample_any_level(const Texture& texture, const Sampler& sampler, const Footprint<WideF>& at,
+                                        WideI level) {
   const WideI width = entry(texture.width, level), height = entry(texture.height, level);
   const Tap<WideF> tap = make_tap<WideF>(sampler, at, width, height);
   const WideI index = entry(texture.first_texel, level) + tap.index;
@@ -129,7 +131,8 @@ SHOAL_INLINE F bilinear_channel(const float* base, IntOf<F> top, IntOf<F> bottom
   return left + (right - left) * wx;
 }
 template <class F>
-SHOAL_INLINE Vec4<F> bilinear_float(const Texture& texture, const Sampler& sampler, const Footprint<F>& at, IntOf<F> level) {
+SHOAL_INLINE Vec4<F> bilinear_float(const Texture& texture, const Sampler& sampler, const Footprint<F>& at,
+                                    IntOf<F> level) {
   const IntOf<F> width = entry(texture.width, level), height = entry(texture.height, level);
   const Tap<F> tap = make_tap<F>(sampler, at, width, height);
   const IntOf<F> top = (entry(texture.first_texel, level) + tap.index) << 2;

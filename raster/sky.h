@@ -19,7 +19,9 @@ SHOAL_INLINE F smooth(F t) {
 }
 // 1 above the horizon, 0 from 3 degrees below it on.
 template <class F>
-SHOAL_INLINE F above_horizon(F y) { return smooth(F(1.0f) + y * F(20.0f)); }
+SHOAL_INLINE F above_horizon(F y) {
+  return smooth(F(1.0f) + y * F(20.0f));
+}
 }  // namespace sky_detail
 
 // The sky without its sun, or the colour: what rough surfaces reflect (the sun reaches them as a light of its own).

@@ -1,11 +1,10 @@
 // Bilinear and mip filtering of 15-bit RGBA texels by 16-bit integers, one pixel (int32) or sixteen (WideI) at a time.
 //
-// One step is lerp(a, b, w) = a + ((b - a) * w + 2^14 >> 15): texels 0 to 32767, weight w 0 to 32767 of 32768. It is exact
-// where a = b or w = 0, never leaves [a, b], and is one instruction for the product on every machine (x86 pmulhrsw, NEON
-// sqrdmulh; core/wide/lanes16.h).
-// Error: a filtered value is within 3.5 / 32767 of exact weights on exact texels for three steps (half a unit of storage,
-// half a unit each step, and up to one weight unit, 2^-15 of the difference, where weights are truncated; pinned by
-// tests/raster/test_texture.cpp).
+// One step is lerp(a, b, w) = a + ((b - a) * w + 2^14 >> 15): texels 0 to 32767, weight w 0 to 32767 of 32768. It is
+// exact where a = b or w = 0, never leaves [a, b], and is one instruction for the product on every machine (x86
+// pmulhrsw, NEON sqrdmulh; core/wide/lanes16.h). Error: a filtered value is within 3.5 / 32767 of exact weights on
+// exact texels for three steps (half a unit of storage, half a unit each step, and up to one weight unit, 2^-15 of the
+// difference, where weights are truncated; pinned by tests/raster/test_texture.cpp).
 #pragma once
 
 #include <bit>
@@ -38,8 +37,8 @@ SHOAL_INLINE Texel lerp_texels(const Texel& a, const Texel& b, std::int32_t w) {
   for (int c = 0; c < 4; ++c) r.channel[c] = texel_detail::lerp15(a.channel[c], b.channel[c], w);
   return r;
 }
-SHOAL_INLINE Texel bilinear_texels(const std::uint64_t* texels, std::int32_t stride, std::int32_t index, std::int32_t wx,
-                                   std::int32_t wy) {
+SHOAL_INLINE Texel bilinear_texels(const std::uint64_t* texels, std::int32_t stride, std::int32_t index,
+                                   std::int32_t wx, std::int32_t wy) {
   using namespace texel_detail;
   const std::uint64_t* top = texels + index;
   const std::uint64_t* bottom = top + stride;
@@ -120,7 +119,8 @@ SHOAL_INLINE WideTexel bilinear(const std::uint64_t* top, const std::int32_t* at
 // The four texels texels[index], [index + 1], [index + stride] and [index + stride + 1] of every lane, filtered: first
 // down, then across. One stride for all lanes, or one a lane.
 //   wx, wy  0 to 32767: weight of the right and of the lower texels
-SHOAL_INLINE WideTexel bilinear_texels(const std::uint64_t* texels, std::int32_t stride, WideI index, WideI wx, WideI wy) {
+SHOAL_INLINE WideTexel bilinear_texels(const std::uint64_t* texels, std::int32_t stride, WideI index, WideI wx,
+                                       WideI wy) {
   alignas(64) std::int32_t at[16];
   index.store(at);
   return texel_detail::bilinear(texels, at, texels + stride, at, wx, wy);

@@ -40,7 +40,8 @@ std::size_t lay_out(Texture& texture, int width, int height) {
 
 std::size_t texel_number(const Texture& texture, int level, int x, int y) {
   return static_cast<std::size_t>(texture.first_texel[level]) +
-         static_cast<std::size_t>(y) * (static_cast<std::size_t>(texture.width[level]) + 1) + static_cast<std::size_t>(x);
+         static_cast<std::size_t>(y) * (static_cast<std::size_t>(texture.width[level]) + 1) +
+         static_cast<std::size_t>(x);
 }
 
 // The source texels under one texel of the next level, along one axis: integer weights and their sum.
@@ -93,8 +94,8 @@ std::uint64_t pack15(const std::uint32_t* channel) {
   return texel;
 }
 
-// The mip chain of 15-bit texels. Between levels the means keep sixteen more bits (31 in all), so that rounding does not
-// add up down the chain; weights of two axes are below 2^28, so a sum fits 64 bits.
+// The mip chain of 15-bit texels. Between levels the means keep sixteen more bits (31 in all), so that rounding does
+// not add up down the chain; weights of two axes are below 2^28, so a sum fits 64 bits.
 void build_mips(Texture& texture) {
   constexpr int kExtraBits = 16;
   std::vector<std::uint32_t> above, here;
@@ -198,7 +199,8 @@ Texture make_texture_float(int width, int height, const float* rgba) {
 std::vector<std::uint8_t> texture_bytes(const Texture& texture) {
   if (texture.format == TexelFormat::kRgba32Float) throw Error("texture: texels are floats; expected an 8-bit format");
   const auto byte_of_srgb = [](std::uint32_t linear15) {
-    const auto at = std::lower_bound(std::begin(kLinear15FromSrgb8.at), std::end(kLinear15FromSrgb8.at), static_cast<int>(linear15));
+    const auto at = std::lower_bound(std::begin(kLinear15FromSrgb8.at), std::end(kLinear15FromSrgb8.at),
+                                     static_cast<int>(linear15));
     return static_cast<std::uint8_t>(at - std::begin(kLinear15FromSrgb8.at));
   };
   const auto byte_of_unorm = [](std::uint32_t linear15) {

@@ -22,8 +22,8 @@ inline constexpr int kMaxTextureLevels = 15;  // 16384 = 2^14
 
 // Level 0 and its mips, one after the other: 2 x 2 boxes in linear light, sizes halved and floored, down to 1 x 1.
 //
-// Both 8-bit formats are stored as 15-bit linear light (raster/srgb.h), 64 bits a texel: nothing is left to decode when a
-// texel is read, and integer filtering gives the same bits on every machine. It costs twice the bytes of the input.
+// Both 8-bit formats are stored as 15-bit linear light (raster/srgb.h), 64 bits a texel: nothing is left to decode when
+// a texel is read, and integer filtering gives the same bits on every machine. It costs twice the bytes of the input.
 // Every level's rows have one more texel at the right end, the first of the row again, and every level one more row at
 // the bottom, the first again, so that the four texels of a bilinear tap are two loads in the repeat mode too.
 struct Texture {
@@ -49,8 +49,8 @@ struct Sampler {
 //   texels         level 0, row-major, top to bottom, without padding: 4 bytes (R, G, B, A) each
 //   srgb           R, G and B are sRGB-encoded; alpha never is
 // An odd size 2n + 1 goes to n texels of 2 + 1/n source texels each, so that no row or column is lost or moved.
-// Differs: from the usual 2 x 2 box only at odd sizes. Error: a mip texel is within 0.51 / 32767 of the exact mean of the
-// stored 15-bit texels (tests/raster/test_texture.cpp); levels are not rounded to 8 bits.
+// Differs: from the usual 2 x 2 box only at odd sizes. Error: a mip texel is within 0.51 / 32767 of the exact mean of
+// the stored 15-bit texels (tests/raster/test_texture.cpp); levels are not rounded to 8 bits.
 Texture make_texture_rgba8(int width, int height, const std::uint8_t* texels, bool srgb);
 
 // The same for linear floats, 4 a texel. What is not finite becomes 0, and beyond 1e37 that.

@@ -25,7 +25,9 @@ SHOAL_INLINE Reg high16(Reg a, Reg b) { return _mm512_unpackhi_epi16(a, b); }
 SHOAL_INLINE Reg low64(Reg a, Reg b) { return _mm512_unpacklo_epi64(a, b); }
 SHOAL_INLINE Reg high64(Reg a, Reg b) { return _mm512_unpackhi_epi64(a, b); }
 template <int kWords>
-SHOAL_INLINE Reg words(Reg a) { return _mm512_shuffle_epi32(a, static_cast<_MM_PERM_ENUM>(kWords)); }
+SHOAL_INLINE Reg words(Reg a) {
+  return _mm512_shuffle_epi32(a, static_cast<_MM_PERM_ENUM>(kWords));
+}
 SHOAL_INLINE Reg zero() { return _mm512_setzero_si512(); }
 SHOAL_INLINE const __m128i* at(const std::uint64_t* p) { return reinterpret_cast<const __m128i*>(p); }
 SHOAL_INLINE Reg load_pairs(const std::uint64_t* base, const std::int32_t* index) {
@@ -45,7 +47,9 @@ SHOAL_INLINE Reg high16(Reg a, Reg b) { return _mm256_unpackhi_epi16(a, b); }
 SHOAL_INLINE Reg low64(Reg a, Reg b) { return _mm256_unpacklo_epi64(a, b); }
 SHOAL_INLINE Reg high64(Reg a, Reg b) { return _mm256_unpackhi_epi64(a, b); }
 template <int kWords>
-SHOAL_INLINE Reg words(Reg a) { return _mm256_shuffle_epi32(a, kWords); }
+SHOAL_INLINE Reg words(Reg a) {
+  return _mm256_shuffle_epi32(a, kWords);
+}
 SHOAL_INLINE Reg zero() { return _mm256_setzero_si256(); }
 SHOAL_INLINE const __m128i* at(const std::uint64_t* p) { return reinterpret_cast<const __m128i*>(p); }
 SHOAL_INLINE Reg load_pairs(const std::uint64_t* base, const std::int32_t* index) {
@@ -62,7 +66,9 @@ SHOAL_INLINE Reg high16(Reg a, Reg b) { return _mm_unpackhi_epi16(a, b); }
 SHOAL_INLINE Reg low64(Reg a, Reg b) { return _mm_unpacklo_epi64(a, b); }
 SHOAL_INLINE Reg high64(Reg a, Reg b) { return _mm_unpackhi_epi64(a, b); }
 template <int kWords>
-SHOAL_INLINE Reg words(Reg a) { return _mm_shuffle_epi32(a, kWords); }
+SHOAL_INLINE Reg words(Reg a) {
+  return _mm_shuffle_epi32(a, kWords);
+}
 SHOAL_INLINE Reg zero() { return _mm_setzero_si128(); }
 SHOAL_INLINE Reg load_pairs(const std::uint64_t* base, const std::int32_t* index) {
   return _mm_loadu_si128(reinterpret_cast<const __m128i*>(base + index[0]));
@@ -101,13 +107,27 @@ SHOAL_INLINE Reg each16(Op op) {
   for (int i = 0; i < 8; ++i) r.v[i] = static_cast<std::int16_t>(op(i));
   return r;
 }
-SHOAL_INLINE Reg add16(Reg a, Reg b) { return each16([&](int i) { return a.v[i] + b.v[i]; }); }
-SHOAL_INLINE Reg sub16(Reg a, Reg b) { return each16([&](int i) { return a.v[i] - b.v[i]; }); }
-SHOAL_INLINE Reg mulhrs16(Reg a, Reg b) { return each16([&](int i) { return (a.v[i] * b.v[i] + 0x4000) >> 15; }); }
-SHOAL_INLINE Reg low16(Reg a, Reg b) { return each16([&](int i) { return (i & 1 ? b : a).v[i >> 1]; }); }
-SHOAL_INLINE Reg high16(Reg a, Reg b) { return each16([&](int i) { return (i & 1 ? b : a).v[4 + (i >> 1)]; }); }
-SHOAL_INLINE Reg low64(Reg a, Reg b) { return each16([&](int i) { return (i & 4 ? b : a).v[i & 3]; }); }
-SHOAL_INLINE Reg high64(Reg a, Reg b) { return each16([&](int i) { return (i & 4 ? b : a).v[4 + (i & 3)]; }); }
+SHOAL_INLINE Reg add16(Reg a, Reg b) {
+  return each16([&](int i) { return a.v[i] + b.v[i]; });
+}
+SHOAL_INLINE Reg sub16(Reg a, Reg b) {
+  return each16([&](int i) { return a.v[i] - b.v[i]; });
+}
+SHOAL_INLINE Reg mulhrs16(Reg a, Reg b) {
+  return each16([&](int i) { return (a.v[i] * b.v[i] + 0x4000) >> 15; });
+}
+SHOAL_INLINE Reg low16(Reg a, Reg b) {
+  return each16([&](int i) { return (i & 1 ? b : a).v[i >> 1]; });
+}
+SHOAL_INLINE Reg high16(Reg a, Reg b) {
+  return each16([&](int i) { return (i & 1 ? b : a).v[4 + (i >> 1)]; });
+}
+SHOAL_INLINE Reg low64(Reg a, Reg b) {
+  return each16([&](int i) { return (i & 4 ? b : a).v[i & 3]; });
+}
+SHOAL_INLINE Reg high64(Reg a, Reg b) {
+  return each16([&](int i) { return (i & 4 ? b : a).v[4 + (i & 3)]; });
+}
 template <int kWords>
 SHOAL_INLINE Reg words(Reg a) {
   return each16([&](int i) { return a.v[2 * (kWords >> (i & 6) & 3) + (i & 1)]; });

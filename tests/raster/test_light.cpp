@@ -72,12 +72,14 @@ TEST_CASE("light reflected is the BRDF of glTF's appendix B") {
     const Vec3d n = random_direction(random), v = random_direction(random), l = random_direction(random);
     if (dot(n, v) < 0.01 || dot(n, l) < 0.001 || dot(l + v, l + v) < 1e-4) continue;
     const Vec3f nf = to_float3(n), vf = to_float3(v), lf = to_float3(l);
-    const float roughness = static_cast<float>(random.between(kMinRoughness, 1)), color = static_cast<float>(random.unit());
+    const float roughness = static_cast<float>(random.between(kMinRoughness, 1)),
+                color = static_cast<float>(random.unit());
     // Pure dielectrics and metals: between them glTF's two forms differ (next case).
     const float metallic = i % 2 ? 1.0f : 0.0f;
     const auto s = surface(nf, {color, 0, 1}, metallic, roughness);
     const float got = reflect_light<float>(make_reflectance<float>(s, vf), lf, dot(nf, lf)).x;
-    const double exact = brdf_times_cosine(color, metallic, roughness, unit(to_double(nf)), unit(to_double(vf)), unit(to_double(lf)));
+    const double exact =
+        brdf_times_cosine(color, metallic, roughness, unit(to_double(nf)), unit(to_double(vf)), unit(to_double(lf)));
     worst = std::max(worst, std::abs(got - exact) / (1e-6 + 2e-5 * exact));
     ++compared;
   }
@@ -95,7 +97,8 @@ TEST_CASE("a smooth surface's highlight is the BRDF's at its peak and beside it"
       const auto s = surface(to_float3(n), {0.9f, 0.9f, 0.9f}, 1, static_cast<float>(roughness));
       const Vec3f lf = to_float3(l), vf = to_float3(v);
       const float got = reflect_light<float>(make_reflectance<float>(s, vf), lf, dot(to_float3(n), lf)).x;
-      const double exact = brdf_times_cosine(double(0.9f), 1, double(float(roughness)), n, unit(to_double(vf)), unit(to_double(lf)));
+      const double exact =
+          brdf_times_cosine(double(0.9f), 1, double(float(roughness)), n, unit(to_double(vf)), unit(to_double(lf)));
       CHECK(got == Approx(exact).epsilon(1e-3));
     }
   }
@@ -172,7 +175,8 @@ TEST_CASE("a white furnace, light from behind, light scaled by water") {
     for (const float metallic : {0.0f, 1.0f}) {
       for (const double cosine : {0.02, 0.3, 1.0}) {
         const Vec3f v = to_float3(unit({std::sqrt(1 - cosine * cosine), cosine, 0}));
-        const float out = shade<float>(surface({0, 1, 0}, {1, 1, 1}, metallic, roughness), false, v, lighting, {1, 1, 1}).x;
+        const float out =
+            shade<float>(surface({0, 1, 0}, {1, 1, 1}, metallic, roughness), false, v, lighting, {1, 1, 1}).x;
         CHECK(out <= 1.01f);
         CHECK(out > (metallic == 0.0f ? 0.9f : 0.45f));
       }
@@ -219,7 +223,8 @@ TEST_CASE("a surface from its material: factors multiply, double-sided normals t
   m.roughness = 0.75f;
   m.emissive = {1, 2, 3};
   const auto make = [&] {
-    return make_surface<float>(m, materials, {1, 2, 3}, {0, 2, 0}, {0, 0}, {0, 0}, {0, 0}, {0.5f, 1, 1, 0.5f}, {0, -1, 0}, true);
+    return make_surface<float>(m, materials, {1, 2, 3}, {0, 2, 0}, {0, 0}, {0, 0}, {0, 0}, {0.5f, 1, 1, 0.5f},
+                               {0, -1, 0}, true);
   };
   SurfaceSample<float> s = make();
   CHECK(s.base_color.x == Approx(0.25 * std::pow((188 / 255.0 + 0.055) / 1.055, 2.4)).epsilon(1e-4));

@@ -19,7 +19,9 @@ long double encoded_exactly(long double x) {
   return x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1.0L / 2.4L) - 0.055L;
 }
 
-float step_ulp(float x, int n) { return std::bit_cast<float>(static_cast<std::int32_t>(std::bit_cast<std::int32_t>(x) + n)); }
+float step_ulp(float x, int n) {
+  return std::bit_cast<float>(static_cast<std::int32_t>(std::bit_cast<std::int32_t>(x) + n));
+}
 
 void encode_all(const float (&x)[16], std::int32_t (&codes)[16]) { encode_srgb8(WideF::load(x)).store(codes); }
 
@@ -84,7 +86,8 @@ TEST_CASE("the sRGB encoder is exact between the thresholds, monotone, and knows
 
 TEST_CASE("out of range is clipped, NaN is black") {
   const float inf = std::numeric_limits<float>::infinity();
-  const float x[16] = {std::nanf(""), -std::nanf(""), inf, -inf, 1e30f, -1e30f, -0.0f, 1.0000001f, -1e-40f, 1e-40f, 2, 3, 0.5f, 1, 0, 0.99f};
+  const float x[16] = {std::nanf(""), -std::nanf(""), inf, -inf, 1e30f, -1e30f, -0.0f, 1.0000001f,
+                       -1e-40f,       1e-40f,         2,   3,    0.5f,  1,      0,     0.99f};
   const int expected[16] = {0, 0, 255, 0, 255, 0, 0, 255, 0, 0, 255, 255, 188, 255, 0, 254};
   std::int32_t codes[16];
   encode_all(x, codes);
@@ -99,7 +102,8 @@ TEST_CASE("the ACES curve: Narkowicz's fit, monotone, flat at 1, safe outside") 
   float last = 0;
   for (int i = 0; i < 4000; ++i) {
     const float x = static_cast<float>(std::exp2(i * 0.01 - 20.0));
-    const double d = static_cast<double>(x), exact = std::min(1.0, d * (2.51 * d + 0.03) / (d * (2.43 * d + 0.59) + 0.14));
+    const double d = static_cast<double>(x),
+                 exact = std::min(1.0, d * (2.51 * d + 0.03) / (d * (2.43 * d + 0.59) + 0.14));
     const float got = tone_aces(x);
     worst = std::max(worst, std::abs(static_cast<double>(got) - exact));
     CHECK(got >= last - 1e-7f);
@@ -165,7 +169,8 @@ TEST_CASE("the sky: zenith above, horizon all round, ground below, no step betwe
   for (int i = 1; i <= 20000; ++i) {
     const double angle = (i / 20000.0 - 0.5) * 3.14159265358979;
     const Vec3f here = background_radiance<float>(b, unit(std::cos(angle), std::sin(angle), 0));
-    largest_step = std::max({largest_step, std::abs(double(here.x - last.x)), std::abs(double(here.y - last.y)), std::abs(double(here.z - last.z))});
+    largest_step = std::max({largest_step, std::abs(double(here.x - last.x)), std::abs(double(here.y - last.y)),
+                             std::abs(double(here.z - last.z))});
     last = here;
   }
   CHECK(largest_step < 5e-3);

@@ -1,4 +1,5 @@
-// Textures against double precision: the sRGB tables, the mip chain as exact areas, level of detail, wrapping, filtering.
+// Textures against double precision: the sRGB tables, the mip chain as exact areas, level of detail, wrapping,
+// filtering.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -38,7 +39,8 @@ Texture constant_texture(int size, std::uint8_t byte, bool srgb) {
 
 double stored(const Texture& t, int level, int x, int y, int c) {
   const std::int64_t at = t.first_texel[level] + static_cast<std::int64_t>(y) * (t.width[level] + 1) + x;
-  if (t.format == TexelFormat::kRgba32Float) return static_cast<double>(t.rgba32f[static_cast<std::size_t>(at * 4 + c)]);
+  if (t.format == TexelFormat::kRgba32Float)
+    return static_cast<double>(t.rgba32f[static_cast<std::size_t>(at * 4 + c)]);
   return static_cast<double>((t.rgba15[static_cast<std::size_t>(at)] >> (16 * c)) & 0xFFFFu) / 32767.0;
 }
 
@@ -49,7 +51,8 @@ int wrapped(std::int64_t i, int size, Wrap wrap) {
   return static_cast<int>(m < size ? m : period - 1 - m);
 }
 
-// The specification's filters in double, on the stored texels; no folding, no padding: texel by texel through `wrapped`.
+// The specification's filters in double, on the stored texels; no folding, no padding: texel by texel through
+// `wrapped`.
 double reference_level(const Texture& t, const Sampler& s, Filter filter, int level, double u, double v, int c) {
   const double x = u * t.width[level], y = v * t.height[level];
   const auto texel = [&](std::int64_t i, std::int64_t j) {
@@ -59,7 +62,8 @@ double reference_level(const Texture& t, const Sampler& s, Filter filter, int le
     return texel(static_cast<std::int64_t>(std::floor(x)), static_cast<std::int64_t>(std::floor(y)));
   const double fx = std::floor(x - 0.5), fy = std::floor(y - 0.5), ax = x - 0.5 - fx, ay = y - 0.5 - fy;
   const auto i = static_cast<std::int64_t>(fx), j = static_cast<std::int64_t>(fy);
-  return (texel(i, j) * (1 - ax) + texel(i + 1, j) * ax) * (1 - ay) + (texel(i, j + 1) * (1 - ax) + texel(i + 1, j + 1) * ax) * ay;
+  return (texel(i, j) * (1 - ax) + texel(i + 1, j) * ax) * (1 - ay) +
+         (texel(i, j + 1) * (1 - ax) + texel(i + 1, j + 1) * ax) * ay;
 }
 
 double reference_lod(const Texture& t, Vec2f dx, Vec2f dy) {
@@ -75,7 +79,8 @@ double reference(const Texture& t, const Sampler& s, Vec2f uv, double lod, int c
     return reference_level(t, s, filter, std::min(static_cast<int>(clamped + 0.5), t.level_count - 1), uv.x, uv.y, c);
   const int lower = static_cast<int>(clamped), upper = std::min(lower + 1, t.level_count - 1);
   const double f = clamped - lower;
-  return reference_level(t, s, filter, lower, uv.x, uv.y, c) * (1 - f) + reference_level(t, s, filter, upper, uv.x, uv.y, c) * f;
+  return reference_level(t, s, filter, lower, uv.x, uv.y, c) * (1 - f) +
+         reference_level(t, s, filter, upper, uv.x, uv.y, c) * f;
 }
 
 double lod_of(const Texture& t, Vec2f dx, Vec2f dy) {
@@ -189,8 +194,10 @@ TEST_CASE("level of detail is log2 of the longer derivative in texels") {
   double worst = 0;
   for (int i = 0; i < 20000; ++i) {
     const float scale = static_cast<float>(std::exp2(random.between(-9, 8)));
-    const Vec2f dx = {static_cast<float>(random.between(-1, 1)) * scale, static_cast<float>(random.between(-1, 1)) * scale};
-    const Vec2f dy = {static_cast<float>(random.between(-1, 1)) * scale, static_cast<float>(random.between(-1, 1)) * scale};
+    const Vec2f dx = {static_cast<float>(random.between(-1, 1)) * scale,
+                      static_cast<float>(random.between(-1, 1)) * scale};
+    const Vec2f dy = {static_cast<float>(random.between(-1, 1)) * scale,
+                      static_cast<float>(random.between(-1, 1)) * scale};
     const double exact = std::clamp(reference_lod(t, dx, dy), 0.0, 14.0);
     worst = std::max(worst, std::abs(lod_of(t, dx, dy) - exact));
   }
@@ -211,7 +218,8 @@ TEST_CASE("filtering is within its bound of double precision, in every mode") {
   for (const auto& size : sizes) {
     std::vector<float> floats(static_cast<std::size_t>(size[0] * size[1]) * 4);
     for (auto& f : floats) f = static_cast<float>(random.unit());
-    const Texture textures[] = {random_texture(random, size[0], size[1], true), random_texture(random, size[0], size[1], false),
+    const Texture textures[] = {random_texture(random, size[0], size[1], true),
+                                random_texture(random, size[0], size[1], false),
                                 make_texture_float(size[0], size[1], floats.data())};
     for (int i = 0; i < 12000; ++i) {
       const Texture& t = textures[i % 3];
@@ -222,7 +230,8 @@ TEST_CASE("filtering is within its bound of double precision, in every mode") {
       s.minify = random.below(2) ? Filter::kLinear : Filter::kNearest;
       s.mip = static_cast<MipFilter>(random.below(3));
       const double reach = random.below(10) == 0 ? 1000.0 : 3.0;
-      const Vec2f uv = {static_cast<float>(random.between(-reach, reach)), static_cast<float>(random.between(-reach, reach))};
+      const Vec2f uv = {static_cast<float>(random.between(-reach, reach)),
+                        static_cast<float>(random.between(-reach, reach))};
       const float scale = static_cast<float>(std::exp2(random.between(-9, 2)));
       const Vec2f dx = {scale, 0.3f * scale}, dy = {-0.2f * scale, 0.7f * scale};
       // Where a choice of texel, filter or level lies within rounding, either is right: left out.
@@ -256,7 +265,8 @@ TEST_CASE("magnified bilinear filtering is within 4 / 32767") {
     const Vec2f uv = {static_cast<float>(random.unit()), static_cast<float>(random.unit())};
     const Vec4f got = sample<float>(t, Sampler{}, uv, {0.001f, 0}, {0, 0.001f}, true);
     for (int c = 0; c < 4; ++c)
-      worst = std::max(worst, std::abs(channel(got, c) - reference_level(t, Sampler{}, Filter::kLinear, 0, uv.x, uv.y, c)));
+      worst =
+          std::max(worst, std::abs(channel(got, c) - reference_level(t, Sampler{}, Filter::kLinear, 0, uv.x, uv.y, c)));
   }
   CHECK(worst * 32767 < 4.0);
 }
@@ -264,7 +274,8 @@ TEST_CASE("magnified bilinear filtering is within 4 / 32767") {
 TEST_CASE("any texture coordinate is safe: not a number, infinite, huge, tiny negative") {
   Random random;
   const float inf = std::numeric_limits<float>::infinity(), nan = std::nanf("");
-  const float values[] = {nan, inf, -inf, 3e38f, -3e38f, 16777217.0f, -1e-30f, -1e-8f, 0.0f, -0.0f, 1.0f, 0.99999994f, -1.0f, 2.0f};
+  const float values[] = {nan,    inf,  -inf,  3e38f, -3e38f,      16777217.0f, -1e-30f,
+                          -1e-8f, 0.0f, -0.0f, 1.0f,  0.99999994f, -1.0f,       2.0f};
   for (const int size : {1, 3, 64, 16384}) {
     const Texture t = random_texture(random, size, size == 16384 ? 1 : size, true);
     for (const Wrap wrap : {Wrap::kRepeat, Wrap::kMirror, Wrap::kClamp}) {
@@ -308,7 +319,8 @@ TEST_CASE("sixteen lanes give the bits of one, whatever the other lanes do") {
     }
     const auto mask = static_cast<std::uint32_t>(random.below(65536));
     const auto wide = [&](int k) { return WideF::load(in[k]); };
-    const Vec4<WideF> got = sample<WideF>(t, s, {wide(0), wide(1)}, {wide(2), wide(3)}, {wide(4), wide(5)}, mask_from_bits(mask));
+    const Vec4<WideF> got =
+        sample<WideF>(t, s, {wide(0), wide(1)}, {wide(2), wide(3)}, {wide(4), wide(5)}, mask_from_bits(mask));
     float out[4][16];
     got.x.store(out[0]);
     got.y.store(out[1]);
@@ -316,7 +328,8 @@ TEST_CASE("sixteen lanes give the bits of one, whatever the other lanes do") {
     got.w.store(out[3]);
     for (int lane = 0; lane < 16; ++lane) {
       if (!((mask >> lane) & 1u)) continue;
-      const Vec4f one = sample<float>(t, s, {in[0][lane], in[1][lane]}, {in[2][lane], in[3][lane]}, {in[4][lane], in[5][lane]}, true);
+      const Vec4f one =
+          sample<float>(t, s, {in[0][lane], in[1][lane]}, {in[2][lane], in[3][lane]}, {in[4][lane], in[5][lane]}, true);
       different += as_int(one.x) != as_int(out[0][lane]);
       different += as_int(one.y) != as_int(out[1][lane]);
       different += as_int(one.z) != as_int(out[2][lane]);
