@@ -23,6 +23,7 @@ struct EncodedImage {
   std::string uri;    // relative file; empty: bytes
   Bytes bytes;
   std::vector<std::uint8_t> storage;  // of a data URI
+  bool srgb = true;                   // false: `extras.linear`, as export_glb writes it
 };
 
 // A parsed file, every index and range of it checked (gltf_schema.cpp).

@@ -105,55 +105,61 @@ UvSource uv_source(Document& document, const tinygltf::TextureInfo& info, const 
   return source;
 }
 
-// Decodes images on first use. Returns the texture's place in the scene.
-class TextureLibrary {
- public:
-  TextureLibrary(Document& document, Materials& materials)
-      : document_(document), materials_(materials), texture_of_image_(document.images.size(), kNoTexture) {}
+// The image behind a material's base colour; -1: none, or none that can be read.
+int base_color_image(const Document& document, const tinygltf::Material& material) {
+  const int texture = material.pbrMetallicRoughness.baseColorTexture.index;
+  return texture < 0 ? -1 : document.model.textures.at(static_cast<std::size_t>(texture)).source;
+}
 
-  std::int32_t texture(int image_index) {
-    std::int32_t& known = texture_of_image_.at(static_cast<std::size_t>(image_index));
-    if (known != kNoTexture) return known;
-    EncodedImage& image = document_.images[static_cast<std::size_t>(image_index)];
-    const std::string name = one_line(document_.path, 4096) + ": " + image.label;
-    std::vector<std::uint8_t> from_file;
-    Bytes bytes = image.bytes;
-    if (!image.uri.empty()) {
-      const std::string file = resolve_uri(document_, image.uri, image.label);
-      from_file = read_file(file, document_.limits.max_file_bytes, document_.path);
-      bytes = from_file;
-    }
-    const ImageLimits limits{document_.limits.max_texture_size, std::uint64_t{1} << 28};
-    const ImageSize size = image_size(bytes, name, limits);
-    // With its mips: a third more.
-    const std::uint64_t texels = static_cast<std::uint64_t>(size.width + 1) * static_cast<std::uint64_t>(size.height);
-    charge(document_, texels * (size.is_float ? 16 : 8) / 3 * 4, image.label);
-    materials_.textures.push_back(decode_texture(bytes, name, true, limits));
-    known = static_cast<std::int32_t>(materials_.textures.size()) - 1;
-    return known;
+Texture read_image(Document& document, const EncodedImage& image) {
+  const std::string name = one_line(document.path, 4096) + ": " + image.label;
+  std::vector<std::uint8_t> from_file;
+  Bytes bytes = image.bytes;
+  if (!image.uri.empty()) {
+    const std::string file = resolve_uri(document, image.uri, image.label);
+    from_file = read_file(file, document.limits.max_file_bytes, document.path);
+    bytes = from_file;
   }
+  const ImageLimits limits{document.limits.max_texture_size, document.limits.max_texels};
+  const ImageSize size = image_size(bytes, name, limits);
+  // Sixteen or eight bytes a texel, and a third more for the mips.
+  const std::uint64_t texels = static_cast<std::uint64_t>(size.width + 1) * static_cast<std::uint64_t>(size.height + 1);
+  charge(document, texels * (size.is_float ? 16 : 8) / 3 * 4, image.label);
+  return decode_texture(bytes, name, image.srgb, limits);
+}
 
- private:
-  Document& document_;
-  Materials& materials_;
-  std::vector<std::int32_t> texture_of_image_;
-};
+// Decodes the images that base colours use, in the file's order. Returns each image's place among the textures.
+std::vector<std::int32_t> read_textures(Document& document, Materials& materials) {
+  std::vector<char> used(document.images.size(), 0);
+  for (const tinygltf::Material& material : document.model.materials) {
+    const int image = base_color_image(document, material);
+    if (image >= 0) used.at(static_cast<std::size_t>(image)) = 1;
+  }
+  std::vector<std::int32_t> places(used.size(), kNoTexture);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    places[i] = static_cast<std::int32_t>(materials.textures.size());
+    materials.textures.push_back(read_image(document, document.images[i]));
+  }
+  return places;
+}
 
 void read_base_color(Document& document, const tinygltf::Material& from, const std::string& label,
-                     TextureLibrary& library, Material& material, UvSource& source) {
+                     const std::vector<std::int32_t>& texture_places, Material& material, UvSource& source) {
   const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
   float rgba[4];
   for (std::size_t i = 0; i < 4; ++i) rgba[i] = factor(document, pbr.baseColorFactor.at(i), 1, "base colour factor");
   material.base_color = {rgba[0], rgba[1], rgba[2], rgba[3]};
   if (pbr.baseColorTexture.index < 0) return;
   source = uv_source(document, pbr.baseColorTexture, label);
-  const tinygltf::Texture& texture = document.model.textures.at(static_cast<std::size_t>(pbr.baseColorTexture.index));
-  if (texture.source < 0) {
-    warn(document, "some textures have no image that can be read: their material has its base colour alone");
+  const int image = base_color_image(document, from);
+  if (image < 0) {
+    warn(document, "some textures have no image that can be read: their materials have the base colour factor alone");
     return;
   }
-  material.base_color_texture = library.texture(texture.source);
-  material.base_color_sampler = read_sampler(document, texture.sampler);
+  const int sampler = document.model.textures[static_cast<std::size_t>(pbr.baseColorTexture.index)].sampler;
+  material.base_color_texture = texture_places.at(static_cast<std::size_t>(image));
+  material.base_color_sampler = read_sampler(document, sampler);
 }
 
 void read_alpha(Document& document, const tinygltf::Material& from, const std::string& label, Material& material) {
@@ -201,13 +207,13 @@ void warn_unread(Document& document, const tinygltf::Material& from) {
 
 std::vector<UvSource> read_materials(Document& document, Scene& scene) {
   std::vector<UvSource> sources;
-  TextureLibrary library(document, scene.materials);
+  const std::vector<std::int32_t> texture_places = read_textures(document, scene.materials);
   for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
     const tinygltf::Material& from = document.model.materials[i];
     const std::string label = label_of("materials", i, from.name);
     Material material;
     UvSource source;
-    read_base_color(document, from, label, library, material, source);
+    read_base_color(document, from, label, texture_places, material, source);
     read_alpha(document, from, label, material);
     read_emissive(document, from, material);
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;

@@ -241,7 +241,7 @@ MeshPrimitive read_primitive(Document& document, const tinygltf::Primitive& prim
 }  // namespace
 
 void read_meshes(Document& document, Scene& scene, const std::vector<UvSource>& uv_sources) {
-  std::int32_t default_material = kNone;
+  std::int32_t default_material = kNoIndex;
   for (std::size_t m = 0; m < document.model.meshes.size(); ++m) {
     const tinygltf::Mesh& from = document.model.meshes[m];
     Mesh mesh;
@@ -253,7 +253,7 @@ void read_meshes(Document& document, Scene& scene, const std::vector<UvSource>& 
       const UvSource uv_source = has_material ? uv_sources[static_cast<std::size_t>(primitive.material)] : UvSource{};
       mesh.primitives.push_back(
           read_primitive(document, primitive, uv_source, label_of("meshes", m) + "." + label_of("primitives", p)));
-      if (!has_material && default_material == kNone) {
+      if (!has_material && default_material == kNoIndex) {
         default_material = static_cast<std::int32_t>(scene.materials.materials.size());
         scene.materials.materials.emplace_back();
       }

@@ -52,7 +52,7 @@ std::vector<std::int32_t> read_lights(Document& document, Scene& scene) {
         fail(document.path, label + " has type '" + one_line(from.type, 40) + "'", "expected directional, point or spot");
       }
       warn(document, from.type + " lights are not read yet");
-      places.push_back(kNone);
+      places.push_back(kNoIndex);
       continue;
     }
     LightSpec light;
@@ -156,7 +156,7 @@ class TreeReader {
       int depth;
     };
     std::vector<Visit> stack;
-    for (auto it = roots.rbegin(); it != roots.rend(); ++it) stack.push_back({*it, kNone, 1});
+    for (auto it = roots.rbegin(); it != roots.rend(); ++it) stack.push_back({*it, kNoIndex, 1});
     while (!stack.empty()) {
       const Visit visit = stack.back();
       stack.pop_back();
@@ -179,20 +179,20 @@ class TreeReader {
     node.name = from.name;
     node.parent = parent;
     const Affine local = local_transform(document_, from, label);
-    const Affine world = parent == kNone ? local : product(worlds_[static_cast<std::size_t>(parent)], local);
+    const Affine world = parent == kNoIndex ? local : product(worlds_[static_cast<std::size_t>(parent)], local);
     node.world_from_local = narrow(world);
     check_finite(node.world_from_local, label);
     worlds_.push_back(world);
-    node.mesh = from.mesh >= 0 ? from.mesh : kNone;
-    node.camera = from.camera >= 0 ? from.camera : kNone;
-    if (node.camera != kNone && node.name.empty()) {
+    node.mesh = from.mesh >= 0 ? from.mesh : kNoIndex;
+    node.camera = from.camera >= 0 ? from.camera : kNoIndex;
+    if (node.camera != kNoIndex && node.name.empty()) {
       node.name = document_.model.cameras[static_cast<std::size_t>(from.camera)].name;
     }
-    if (node.mesh != kNone) count_mesh(static_cast<std::size_t>(node.mesh), world, label);
+    if (node.mesh != kNoIndex) count_mesh(static_cast<std::size_t>(node.mesh), world, label);
     read_extensions(from, node, label);
     WaterSpec water;
     if (read_water(document_, from.extras, label, water)) {
-      if (!water.has_size && node.mesh == kNone) {
+      if (!water.has_size && node.mesh == kNoIndex) {
         fail(document_.path, label + " is water without a size and without a mesh",
              "expected extras.water.size, or a planar mesh as its outline");
       }

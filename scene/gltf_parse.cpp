@@ -163,6 +163,7 @@ void list_images(Document& document, const json& root) {
       const Bytes buffer = document.buffers[view["buffer"].get<std::size_t>()];
       image.bytes = buffer.subspan(view.value("byteOffset", std::size_t{0}), view["byteLength"].get<std::size_t>());
     }
+    if (images[i].contains("extras")) image.srgb = images[i]["extras"] != json{{"linear", true}};
     document.images.push_back(std::move(image));
     if (!document.images.back().storage.empty()) document.images.back().bytes = document.images.back().storage;
   }

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "scene/images_png.h"
 
 namespace shoal {
 namespace {
@@ -54,25 +55,37 @@ const char* reader_name(Format format) {
   return "";
 }
 
-// libjpeg fills what is missing with grey and succeeds; libpng may too. The end markers tell.
-void check_complete(Encoded bytes, Format format, const std::string& name) {
-  const std::uint8_t jpeg_end[] = {0xFF, 0xD9};
-  const std::uint8_t png_end[] = {'I', 'E', 'N', 'D'};
-  bool complete = true;
-  if (format == Format::kJpeg) {
-    const std::uint8_t scan_start[] = {0xFF, 0xDA};
-    const auto scan = std::search(bytes.begin(), bytes.end(), std::begin(scan_start), std::end(scan_start));
-    complete = std::search(scan, bytes.end(), std::begin(jpeg_end), std::end(jpeg_end)) != bytes.end();
-  } else if (format == Format::kPng) {
-    complete = std::search(bytes.begin(), bytes.end(), std::begin(png_end), std::end(png_end)) != bytes.end();
+// libjpeg fills what is missing with grey and succeeds: the segments are walked to the end marker first.
+// Source: ITU-T T.81, annex B.
+bool jpeg_has_end(Encoded bytes) {
+  std::size_t at = 2;
+  while (at + 1 < bytes.size()) {
+    if (bytes[at] != 0xFF) return false;
+    const int marker = bytes[at + 1];
+    if (marker == 0xD9) return true;
+    if (marker == 0xFF) {  // fill
+      ++at;
+      continue;
+    }
+    at += 2;
+    if ((marker >= 0xD0 && marker <= 0xD7) || marker == 0x01) continue;  // no parameters
+    if (at + 2 > bytes.size()) return false;
+    at += static_cast<std::size_t>(bytes[at]) << 8 | bytes[at + 1];
+    if (marker != 0xDA) continue;
+    // Coded data: up to a marker that is neither a stuffed zero nor a restart.
+    const auto is_data = [&](int next) { return next == 0 || (next >= 0xD0 && next <= 0xD7); };
+    while (at + 1 < bytes.size() && (bytes[at] != 0xFF || is_data(bytes[at + 1]))) ++at;
   }
-  if (!complete) fail(name, "is cut short", "expected a whole image");
+  return false;
 }
 
 struct Reader {
-  Reader(Encoded bytes, const std::string& name_in) : name(name_in), memory(bytes.data(), bytes.size()) {
-    format = format_of(bytes, name);
-    check_complete(bytes, format, name);
+  Reader(Encoded bytes, const std::string& name_in)
+      : name(name_in),
+        format(format_of(bytes, name)),
+        png(format == Format::kPng ? png_pixels_only(bytes, name) : std::vector<std::uint8_t>()),
+        memory(png.empty() ? bytes.data() : png.data(), png.empty() ? bytes.size() : png.size()) {
+    if (format == Format::kJpeg && !jpeg_has_end(bytes)) fail(name, "is cut short or damaged", "expected a whole JPEG");
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
     input = OIIO::ImageInput::create(reader_name(format));
@@ -85,7 +98,8 @@ struct Reader {
   const OIIO::ImageSpec& spec() const { return input->spec(); }
 
   std::string name;
-  Format format = Format::kPng;
+  Format format;
+  std::vector<std::uint8_t> png;  // checked and stripped
   OIIO::Filesystem::IOMemReader memory;
   std::unique_ptr<OIIO::ImageInput> input;
 };

@@ -1,0 +1,427 @@
+#include "scene/export_glb.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "core/error.h"
+#include "scene/gltf_transform.h"
+#include "scene/images.h"
+
+namespace shoal {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian and are written as they are");
+
+using json = nlohmann::ordered_json;  // keys in the order of writing: the same bytes each time
+using Bytes = std::span<const std::uint8_t>;
+
+// A float's value as JSON, exactly.
+json exact(float value) { return static_cast<double>(value); }
+json exact(Vec3f v) { return {exact(v.x), exact(v.y), exact(v.z)}; }
+
+template <class T>
+Bytes bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(T)};
+}
+
+constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+
+class GlbWriter {
+ public:
+  GlbWriter(const Scene& scene, std::string path) : scene_(scene), path_(std::move(path)) {}
+
+  void build() {
+    root_["asset"] = {{"version", "2.0"}, {"generator", "Shoal"}};
+    add_scene();
+    add_nodes();
+    add_meshes();
+    add_materials();
+    add_cameras();
+    add_lights();
+    if (buffer_size_ > 0) root_["buffers"] = json::array({json{{"byteLength", buffer_size_}}});
+    text_ = root_.dump(-1, ' ', false, json::error_handler_t::replace);
+    text_.resize((text_.size() + 3) / 4 * 4, ' ');
+    if (total_size() > 0xFFFFFFFFu) {
+      wrong("needs " + std::to_string(total_size()) + " bytes", "expected less than 4 GiB, a .glb file's limit");
+    }
+  }
+
+  void write(std::FILE* stream) const {
+    write_u32(stream, 0x46546C67u);  // "glTF"
+    write_u32(stream, 2);
+    write_u32(stream, static_cast<std::uint32_t>(total_size()));
+    write_u32(stream, static_cast<std::uint32_t>(text_.size()));
+    write_u32(stream, 0x4E4F534Au);  // "JSON"
+    write_bytes(stream, {reinterpret_cast<const std::uint8_t*>(text_.data()), text_.size()});
+    if (buffer_size_ == 0) return;
+    write_u32(stream, static_cast<std::uint32_t>(buffer_size_));
+    write_u32(stream, 0x004E4942u);  // "BIN"
+    const std::uint8_t zeros[3] = {0, 0, 0};
+    for (const Bytes part : parts_) {
+      write_bytes(stream, part);
+      write_bytes(stream, {zeros, padding(part.size())});
+    }
+  }
+
+ private:
+  [[noreturn]] void wrong(const std::string& what, const std::string& expected) const {
+    throw Error(path_ + ": the scene " + what + "; " + expected);
+  }
+  void require(bool ok, const std::string& what) const {
+    if (!ok) wrong(what, "expected a valid scene");
+  }
+  void require_index(std::int32_t index, std::size_t size, bool may_be_none, const std::string& what) const {
+    require((may_be_none && index == kNoIndex) || (index >= 0 && static_cast<std::size_t>(index) < size),
+            "has a " + what + " numbered " + std::to_string(index));
+  }
+
+  static std::size_t padding(std::size_t size) { return (4 - size % 4) % 4; }
+  std::uint64_t total_size() const { return 20 + text_.size() + (buffer_size_ > 0 ? 8 + buffer_size_ : 0); }
+
+  void write_bytes(std::FILE* stream, Bytes bytes) const {
+    if (bytes.empty()) return;
+    errno = 0;
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stream) != bytes.size()) {
+      throw Error(path_ + ": cannot be written (" + std::strerror(errno != 0 ? errno : EIO) +
+                  "); expected a writable file and room for it");
+    }
+  }
+  void write_u32(std::FILE* stream, std::uint32_t value) const {
+    write_bytes(stream, {reinterpret_cast<const std::uint8_t*>(&value), sizeof value});
+  }
+
+  // Returns the new bufferView's number.
+  std::size_t add_view(Bytes bytes, int target) {
+    json view = {{"buffer", 0}, {"byteOffset", buffer_size_}, {"byteLength", bytes.size()}};
+    if (target != 0) view["target"] = target;
+    root_["bufferViews"].push_back(std::move(view));
+    parts_.push_back(bytes);
+    buffer_size_ += bytes.size() + padding(bytes.size());
+    return root_["bufferViews"].size() - 1;
+  }
+
+  template <class T>
+  std::size_t add_accessor(const std::vector<T>& values, const char* type) {
+    const bool is_index = std::is_same_v<T, std::uint32_t>;
+    root_["accessors"].push_back({{"bufferView", add_view(bytes_of(values), is_index ? kElementArrayBuffer : kArrayBuffer)},
+                                  {"componentType", is_index ? kUnsignedInt : kFloat},
+                                  {"count", values.size()},
+                                  {"type", type}});
+    return root_["accessors"].size() - 1;
+  }
+
+  void add_scene();
+  json node_json(const Node& node) const;
+  void add_nodes();
+  void add_primitive(const MeshPrimitive& mesh, json& primitives);
+  void add_meshes();
+  void add_images();
+  std::size_t texture_number(std::int32_t image, const Sampler& sampler);
+  json material_json(const Material& material);
+  void add_materials();
+  void add_cameras();
+  void add_lights();
+  void use_extension(const char* name) {
+    json& used = root_["extensionsUsed"];
+    if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+  }
+
+  const Scene& scene_;
+  std::string path_;
+  json root_;
+  std::string text_;
+  std::vector<Bytes> parts_;
+  std::uint64_t buffer_size_ = 0;
+  std::vector<std::vector<std::uint8_t>> images_;
+  std::vector<std::int32_t> image_of_texture_;
+};
+
+void GlbWriter::add_scene() {
+  json scene;
+  for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+    if (scene_.nodes[i].parent == kNoIndex) scene["nodes"].push_back(i);
+  }
+  if (scene_.has_background) {
+    const Background& background = scene_.background;
+    if (background.kind == Background::Kind::kColor) {
+      scene["extras"]["background"] = exact(background.color);
+    } else {
+      scene["extras"]["background"] = {{"type", "sky"},
+                                       {"zenith", exact(background.zenith)},
+                                       {"horizon", exact(background.horizon)},
+                                       {"ground", exact(background.ground)},
+                                       {"to_sun", exact(background.to_sun_world)},
+                                       {"sun", exact(background.sun)}};
+    }
+  }
+  root_["scene"] = 0;
+  root_["scenes"] = json::array({scene.is_null() ? json::object() : scene});
+}
+
+json water_json(const WaterSpec& water) {
+  json out;
+  if (water.has_size) out["size"] = {exact(water.size_x), exact(water.size_z)};
+  if (water.has_depth) out["depth"] = exact(water.depth);
+  out["ior"] = exact(water.ior);
+  out["absorption"] = exact(water.absorption);
+  out["surface"] = {{"type", "flat"}};
+  out["geometry"] = water.surface.geometry == WaterGeometry::kDisplaced ? "displaced" : "normals";
+  return out;
+}
+
+json GlbWriter::node_json(const Node& node) const {
+  json out;
+  if (!node.name.empty()) out["name"] = node.name;
+  require_index(node.mesh, scene_.meshes.size(), true, "mesh");
+  require_index(node.camera, scene_.cameras.size(), true, "camera");
+  require_index(node.light, scene_.lights.size(), true, "light");
+  require_index(node.water, scene_.waters.size(), true, "body of water");
+  if (node.mesh != kNoIndex) out["mesh"] = node.mesh;
+  if (node.camera != kNoIndex) out["camera"] = node.camera;
+  if (node.light != kNoIndex) out["extensions"]["KHR_lights_punctual"]["light"] = node.light;
+  if (node.water != kNoIndex) out["extras"]["water"] = water_json(scene_.waters[static_cast<std::size_t>(node.water)]);
+  return out;
+}
+
+void GlbWriter::add_nodes() {
+  std::vector<gltf::Affine> worlds;     // as the loader will have them
+  std::vector<std::size_t> ancestors;  // of the next node
+  for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+    const Node& node = scene_.nodes[i];
+    require_index(node.parent, i, true, "parent");
+    while (!ancestors.empty() && static_cast<std::int32_t>(ancestors.back()) != node.parent) ancestors.pop_back();
+    require(node.parent == kNoIndex || !ancestors.empty(), "has nodes that are not depth first");
+    ancestors.push_back(i);
+
+    json out = node_json(node);
+    const gltf::Affine world = gltf::widen(node.world_from_local);
+    gltf::Affine local = world;
+    if (node.parent != kNoIndex) {
+      const gltf::Affine& parent = worlds[static_cast<std::size_t>(node.parent)];
+      gltf::Affine parent_inverse{};
+      if (!gltf::inverse(parent, parent_inverse)) {
+        wrong("has node '" + node.name + "' under a parent without volume", "expected parents that can be inverted");
+      }
+      local = gltf::product(parent_inverse, world);
+      worlds.push_back(gltf::product(parent, local));
+      root_["nodes"][static_cast<std::size_t>(node.parent)]["children"].push_back(i);
+    } else {
+      worlds.push_back(world);
+    }
+    json matrix = json::array();
+    for (int c = 0; c < 4; ++c) {
+      for (int r = 0; r < 3; ++r) matrix.push_back(local.m[r][c]);
+      matrix.push_back(c == 3 ? 1.0 : 0.0);
+    }
+    if (std::memcmp(&local, &gltf::kAffineIdentity, sizeof local) != 0) out["matrix"] = std::move(matrix);
+    root_["nodes"].push_back(out.is_null() ? json::object() : std::move(out));
+  }
+}
+
+void GlbWriter::add_primitive(const MeshPrimitive& mesh, json& primitives) {
+  const std::size_t count = mesh.positions.size();
+  require(mesh.normals.size() == count && (mesh.uvs.empty() || mesh.uvs.size() == count) &&
+              (mesh.colors.empty() || mesh.colors.size() == count),
+          "has a primitive with unequal numbers of attributes");
+  require(!mesh.indices.empty() && mesh.indices.size() % 3 == 0, "has a primitive without whole triangles");
+  require(*std::max_element(mesh.indices.begin(), mesh.indices.end()) < count, "has an index beyond its vertices");
+  require_index(mesh.material, scene_.materials.materials.size(), false, "material");
+
+  Vec3f low = mesh.positions[0], high = low;
+  for (const Vec3f p : mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  json attributes;
+  attributes["POSITION"] = add_accessor(mesh.positions, "VEC3");
+  root_["accessors"].back()["min"] = exact(low);
+  root_["accessors"].back()["max"] = exact(high);
+  attributes["NORMAL"] = add_accessor(mesh.normals, "VEC3");
+  if (!mesh.uvs.empty()) attributes["TEXCOORD_0"] = add_accessor(mesh.uvs, "VEC2");
+  if (!mesh.colors.empty()) attributes["COLOR_0"] = add_accessor(mesh.colors, "VEC4");
+  const std::size_t indices = add_accessor(mesh.indices, "SCALAR");
+  primitives.push_back({{"attributes", std::move(attributes)}, {"indices", indices}, {"material", mesh.material}});
+}
+
+void GlbWriter::add_meshes() {
+  for (const Mesh& mesh : scene_.meshes) {
+    json out;
+    if (!mesh.name.empty()) out["name"] = mesh.name;
+    out["primitives"] = json::array();
+    for (const MeshPrimitive& primitive : mesh.primitives) add_primitive(primitive, out["primitives"]);
+    root_["meshes"].push_back(std::move(out));
+  }
+}
+
+// The textures that materials use, in the scene's order.
+void GlbWriter::add_images() {
+  const std::vector<Texture>& textures = scene_.materials.textures;
+  std::vector<char> used(textures.size(), 0);
+  for (const Material& material : scene_.materials.materials) {
+    require_index(material.base_color_texture, textures.size(), true, "texture");
+    if (material.base_color_texture != kNoTexture) used[static_cast<std::size_t>(material.base_color_texture)] = 1;
+  }
+  image_of_texture_.assign(textures.size(), kNoIndex);
+  images_.reserve(textures.size());
+  for (std::size_t i = 0; i < textures.size(); ++i) {
+    if (!used[i]) continue;
+    image_of_texture_[i] = static_cast<std::int32_t>(images_.size());
+    images_.push_back(encode_texture(textures[i], path_ + ": texture " + std::to_string(i)));
+    const bool is_float = textures[i].format == TexelFormat::kRgba32Float;
+    json image = {{"bufferView", add_view(bytes_of(images_.back()), 0)},
+                  {"mimeType", is_float ? "image/x-exr" : "image/png"}};
+    if (textures[i].format == TexelFormat::kRgba8Linear) image["extras"]["linear"] = true;
+    root_["images"].push_back(std::move(image));
+  }
+}
+
+int wrap_code(Wrap wrap) { return wrap == Wrap::kRepeat ? 10497 : wrap == Wrap::kMirror ? 33648 : 33071; }
+
+int minify_code(const Sampler& sampler) {
+  const int linear = sampler.minify == Filter::kLinear ? 1 : 0;
+  if (sampler.mip == MipFilter::kNone) return 9728 + linear;
+  return 9984 + linear + (sampler.mip == MipFilter::kLinear ? 2 : 0);
+}
+
+// Each pair of image and sampler once.
+std::size_t GlbWriter::texture_number(std::int32_t image, const Sampler& sampler) {
+  const auto number_of = [](json& list, const json& item) {
+    if (list.is_null()) list = json::array();
+    const auto it = std::find(list.begin(), list.end(), item);
+    if (it != list.end()) return static_cast<std::size_t>(it - list.begin());
+    list.push_back(item);
+    return list.size() - 1;
+  };
+  const std::size_t sampler_number = number_of(root_["samplers"], {{"magFilter", sampler.magnify == Filter::kLinear ? 9729 : 9728},
+                                                                   {"minFilter", minify_code(sampler)},
+                                                                   {"wrapS", wrap_code(sampler.wrap_u)},
+                                                                   {"wrapT", wrap_code(sampler.wrap_v)}});
+  return number_of(root_["textures"], {{"sampler", sampler_number}, {"source", image}});
+}
+
+json GlbWriter::material_json(const Material& material) {
+  json out;
+  json& pbr = out["pbrMetallicRoughness"];
+  const Vec4f base = material.base_color;
+  pbr["baseColorFactor"] = {exact(base.x), exact(base.y), exact(base.z), exact(base.w)};
+  pbr["metallicFactor"] = exact(material.metallic);
+  pbr["roughnessFactor"] = exact(material.roughness);
+  if (material.base_color_texture != kNoTexture) {
+    const std::int32_t image = image_of_texture_[static_cast<std::size_t>(material.base_color_texture)];
+    pbr["baseColorTexture"]["index"] = texture_number(image, material.base_color_sampler);
+  }
+  // Factors end at 1; a power of two as strength keeps every bit.
+  float strength = 1;
+  const Vec3f glow = material.emissive;
+  while (std::max({glow.x, glow.y, glow.z}) > strength) strength *= 2;
+  out["emissiveFactor"] = exact(glow / strength);
+  if (strength > 1) {
+    out["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = exact(strength);
+    use_extension("KHR_materials_emissive_strength");
+  }
+  if (material.alpha_mode != AlphaMode::kOpaque) {
+    out["alphaMode"] = material.alpha_mode == AlphaMode::kMask ? "MASK" : "BLEND";
+  }
+  if (material.alpha_cutoff != 0.5f) out["alphaCutoff"] = exact(material.alpha_cutoff);
+  if (material.double_sided) out["doubleSided"] = true;
+  if (material.unlit) {
+    out["extensions"]["KHR_materials_unlit"] = json::object();
+    use_extension("KHR_materials_unlit");
+  }
+  return out;
+}
+
+void GlbWriter::add_materials() {
+  add_images();
+  for (const Material& material : scene_.materials.materials) root_["materials"].push_back(material_json(material));
+}
+
+void GlbWriter::add_cameras() {
+  for (const CameraSpec& camera : scene_.cameras) {
+    json lens;
+    if (camera.orthographic) {
+      lens = {{"xmag", exact(camera.xmag)}, {"ymag", exact(camera.ymag)}};
+    } else {
+      lens = {{"yfov", exact(camera.yfov)}};
+    }
+    lens["znear"] = exact(camera.znear);
+    if (camera.zfar > 0) lens["zfar"] = exact(camera.zfar);
+    const char* type = camera.orthographic ? "orthographic" : "perspective";
+    root_["cameras"].push_back({{"type", type}, {type, std::move(lens)}});
+  }
+}
+
+void GlbWriter::add_lights() {
+  for (const LightSpec& light : scene_.lights) {
+    root_["extensions"]["KHR_lights_punctual"]["lights"].push_back(
+        {{"type", "directional"}, {"color", exact(light.color)}, {"intensity", exact(light.intensity)}});
+    use_extension("KHR_lights_punctual");
+  }
+}
+
+// Unlinked unless it has been renamed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& path) : path_(path), temporary_(path + ".tmp-" + std::to_string(getpid())) {
+    const int descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor < 0) fail();
+    created_ = true;
+    stream_ = fdopen(descriptor, "wb");
+    if (stream_ == nullptr) {
+      close(descriptor);
+      unlink(temporary_.c_str());
+      fail();
+    }
+  }
+  ~TemporaryFile() {
+    if (stream_ != nullptr) std::fclose(stream_);
+    if (created_) unlink(temporary_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  std::FILE* stream() const { return stream_; }
+  void commit() {
+    const bool flushed = std::fflush(stream_) == 0 && fsync(fileno(stream_)) == 0;
+    const int error = errno;
+    const bool closed = std::fclose(stream_) == 0;
+    stream_ = nullptr;
+    if (!flushed) errno = error;
+    if (!flushed || !closed || std::rename(temporary_.c_str(), path_.c_str()) != 0) fail();
+    created_ = false;
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw Error(path_ + ": cannot be written (" + std::strerror(errno) + "); expected a writable file and room for it");
+  }
+  std::string path_, temporary_;
+  bool created_ = false;
+  std::FILE* stream_ = nullptr;
+};
+
+}  // namespace
+
+void write_glb(const Scene& scene, std::FILE* stream, const std::string& path) {
+  GlbWriter writer(scene, path);
+  writer.build();
+  writer.write(stream);
+}
+
+void export_glb(const Scene& scene, const std::string& path) {
+  GlbWriter writer(scene, path);
+  writer.build();
+  TemporaryFile file(path);
+  writer.write(file.stream());
+  file.commit();
+}
+
+}  // namespace shoal
