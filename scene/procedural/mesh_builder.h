@@ -30,8 +30,9 @@ enum class Poles { kOpen, kV0, kV1, kBoth };
 enum class Normals { kGiven, kSmooth };
 
 inline float clamp01(float x) { return std::min(1.0f, std::max(0.0f, x)); }
-inline float mix(float a, float b, float t) { return a + (b - a) * t; }
-inline Vec3f mix(Vec3f a, Vec3f b, float t) { return a + (b - a) * t; }
+// Exact at both ends, so that neighbours meet.
+inline float mix(float a, float b, float t) { return a * (1.0f - t) + b * t; }
+inline Vec3f mix(Vec3f a, Vec3f b, float t) { return a * (1.0f - t) + b * t; }
 inline float smooth_step(float lo, float hi, float x) {
   const float t = clamp01((x - lo) / (hi - lo));
   return t * t * (3.0f - 2.0f * t);

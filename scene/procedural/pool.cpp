@@ -20,10 +20,13 @@ constexpr Vec3f kColumnsAt[] = {{-9, kDeckY, -6.1f}, {-6, kDeckY, -6.1f}, {-3, k
                                 {3, kDeckY, -6.1f},  {6, kDeckY, -6.1f},  {9, kDeckY, -6.1f}};
 constexpr Vec3f kLoungersAt[] = {{-3.4f, kDeckY, -4.3f}, {-2.0f, kDeckY, -4.3f}, {2.0f, kDeckY, -4.3f}, {3.4f, kDeckY, -4.3f}};
 constexpr Vec3f kParasolsAt[] = {{-2.7f, kDeckY, -4.75f}, {2.7f, kDeckY, -4.75f}};
-constexpr Vec3f kPotsAt[] = {{-6.3f, kDeckY, -3.6f}, {6.3f, kDeckY, -3.6f}, {-6.3f, kDeckY, 3.6f}, {6.3f, kDeckY, 3.6f}, {0, kDeckY, -5.2f}};
+constexpr Vec3f kPotsAt[] = {{-6.3f, kDeckY, -3.6f}, {6.3f, kDeckY, -3.6f}, {-6.3f, kDeckY, 3.6f}, {0, kDeckY, -5.2f}};
 constexpr Vec3f kCypressesAt[] = {{-12.6f, -0.1f, -7.2f}, {-12.9f, -0.1f, -3.4f}, {-12.5f, -0.1f, 0.6f}, {-12.8f, -0.1f, 4.4f},
                                   {12.7f, -0.1f, -6.4f},  {12.9f, -0.1f, -1.2f},  {12.6f, -0.1f, 3.8f},  {-15.5f, -0.1f, -12.5f},
                                   {-11.5f, -0.1f, -13.5f}, {11.8f, -0.1f, -13.0f}, {15.0f, -0.1f, -12.0f}};
+constexpr Vec3f kOlivesAt[] = {{-17, -0.1f, -3}, {-19.5f, -0.1f, 3}, {-22, -0.1f, -9}, {-16.5f, -0.1f, 8}, {-27, 0, -2},
+                               {-25, 0, 7},      {-31, 0, -13},     {-36, 0, 2},     {-40, 0.2f, -8},   {-9, -0.1f, -17},
+                               {1, -0.1f, -19},  {17, -0.1f, -5},   {19, -0.1f, 2},  {23, -0.1f, -11}};
 constexpr Vec3f kOnce[] = {{0, 0, 0}};
 
 template <std::size_t kN>
@@ -51,6 +54,7 @@ constexpr Part kParts[] = {
     {"ring_3", ring<2>, at(kOnce), 3, false},       {"ring_4", ring<3>, at(kOnce), 1.5, false},
     {"garden_walls", garden_walls, at(kOnce), 0.5, false}, {"pot", pot, at(kPotsAt), 6, false},
     {"cypress", cypress, at(kCypressesAt), 9, false}, {"hedges", hedges, at(kOnce), 5, false},
+    {"olive", olive, at(kOlivesAt), 5, false},      {"blossoms", blossoms, at(kOnce), 5, false},
     {"parasol", parasol, at(kParasolsAt), 3, false}, {"lounger", lounger, at(kLoungersAt), 4, false},
     {"ball_4", ball<3>, at(kOnce), 2, false}};
 constexpr std::size_t kPartCount = std::size(kParts);
@@ -176,22 +180,28 @@ Materials make_materials() {
   textured(kRoof, make_roof_tiles());
   textured(kMarble, make_ripple_marble());
   textured(kWood, make_planks());
-  same(kShutter, kWood);
+  same(kShutter, kStucco);
+  same(kGardenWall, kStucco);
   textured(kBall, make_beach_ball());
   textured(kRing, make_ring_stripes());
   textured(kAwning, make_awning());
   textured(kFoliage, make_foliage());
-  same(kCypress, kFoliage);
+  for (const Mat leaves : {kCypress, kOlive, kBlossom}) same(leaves, kFoliage);
   same(kTerracotta, kStucco);
   textured(kGrass, make_grass());
   tint(kOchre, 0.86f, 0.55f, 0.30f);
-  tint(kShutter, 0.30f, 0.75f, 1.30f);
+  tint(kShutter, 0.10f, 0.27f, 0.42f);
+  tint(kStucco, 0.97f, 0.91f, 0.80f);
+  tint(kGardenWall, 0.93f, 0.74f, 0.52f);
   tint(kGlass, 0.02f, 0.035f, 0.05f);
   tint(kChrome, 0.82f, 0.84f, 0.86f);
   tint(kDiveRing, 1.0f, 0.55f, 0.04f);
   tint(kCushion, 0.90f, 0.88f, 0.83f);
   tint(kTerracotta, 0.62f, 0.26f, 0.13f);
-  tint(kCypress, 0.50f, 0.66f, 0.55f);
+  tint(kFoliage, 0.24f, 0.42f, 0.10f);
+  tint(kCypress, 0.12f, 0.23f, 0.085f);
+  tint(kOlive, 0.36f, 0.47f, 0.20f);
+  tint(kBlossom, 0.95f, 0.09f, 0.42f);
   for (const Mat glossy : {kTiles, kLane, kBand, kBall, kRing, kDiveRing}) m.materials[glossy].roughness = 0.35f;
   m.materials[kGlass].roughness = 0.15f;
   m.materials[kChrome].roughness = 0.22f;
@@ -215,10 +225,13 @@ Scene make_pool(std::uint64_t triangles) {
   water.absorption = {0.22f, 0.045f, 0.022f};
   add_water(scene, "water", {0, 0, 0}, water);
 
-  add_sun(scene, {-0.46f, 0.74f, 0.50f}, {1.0f, 0.93f, 0.80f}, 2.7f);
-  add_camera(scene, "high", {7.4f, 4.1f, 6.3f}, {-1.2f, -0.5f, -1.5f}, 0.76f);
+  add_sun(scene, {-0.46f, 0.72f, 0.52f}, {1.0f, 0.91f, 0.76f}, 2.55f);
+  scene.background.zenith = {0.16f, 0.34f, 0.68f};
+  scene.background.horizon = {0.68f, 0.80f, 0.93f};
+  scene.background.ground = {0.42f, 0.36f, 0.28f};
+  add_camera(scene, "high", {7.7f, 3.75f, 6.2f}, {-0.75f, 0.22f, -1.35f}, 0.80f);
   add_camera(scene, "grazing", {6.3f, 1.05f, 1.7f}, {-2.6f, 0.15f, -0.9f}, 0.80f);
-  add_camera(scene, "under", {3.9f, -1.35f, 1.7f}, {-1.6f, -0.30f, -0.7f}, 1.20f);
+  add_camera(scene, "under", {3.6f, -1.72f, 1.35f}, {-0.4f, 0.18f, -0.35f}, 1.38f);
   add_camera(scene, "surface", {4.4f, 0.09f, 1.75f}, {-2.6f, 0.32f, -1.4f}, 0.85f);
   return scene;
 }

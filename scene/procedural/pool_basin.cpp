@@ -30,6 +30,9 @@ void for_each_cell(const std::array<float, kX>& xs, const std::array<float, kY>&
   }
 }
 
+// To the nearest 1/4096 m: floor and walls find the same corner whichever end they count from.
+float snap(float x) { return std::floor(x * 4096.0f + 0.5f) / 4096.0f; }
+
 // Light that reaches a crease is less: distance to it in metres, reach of the darkening.
 float crease(float distance, float reach, float depth) {
   const float d = std::max(0.0f, distance) / reach;
@@ -64,7 +67,7 @@ void basin_floor(PartBuilder& b, float step, bool lanes) {
   const auto cell = [&](float x0, float x1, int nx, float z0, float z1, int nz, int material) {
     b.surface(material, nx, nz, [&](float u, float v) {
       // v runs towards -z, so that the front is up.
-      const float x = mix(x0, x1, u), z = mix(z1, z0, v);
+      const float x = snap(mix(x0, x1, u)), z = snap(mix(z1, z0, v));
       const Vec3f n = normalize({(kDeep - kShallow) / (2 * kHalfX), 1, 0});
       return SurfacePoint{{x, floor_y(x), z}, n, {x / 1.6f, z / 1.6f}, floor_shade(x, z)};
     });
@@ -96,7 +99,7 @@ void basin_walls(PartBuilder& b, float step, bool lanes) {
       const float w0 = mirrored ? lines[i + 1] : lines[i], w1 = mirrored ? lines[i] : lines[i + 1];
       const int n = segments(lines[i], lines[i + 1], step);
       const auto place = [&](float u, float y_share, bool band) {
-        const float w = mix(w0, w1, u);
+        const float w = snap(mix(w0, w1, u));
         const Vec3f axis = is_long ? Vec3f{1, 0, 0} : Vec3f{0, 0, 1};
         const Vec3f p = axis * w + side.out * side.half_out;
         const float y = band ? mix(kBandBottom, kDeckY, y_share) : mix(floor_y(p.x), kBandBottom, y_share);
@@ -156,7 +159,7 @@ void steps(PartBuilder& b, int level) {
 
 void coping(PartBuilder& b, int level) {
   constexpr float kNose = 0.03f, kOver = 0.04f;
-  const int along = level, nose = std::max(1, level / 2);
+  const int along = level, nose = std::max(2, level / 2);
   for (const Side& side : kSides) {
     // A point of the profile: d outward from the wall, mitred at the corners.
     const auto at = [&](float u, float d, float y, Vec3f n, float v_metres) {

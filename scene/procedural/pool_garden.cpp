@@ -14,17 +14,21 @@ float rough(Vec3f p, float scale, int octaves, std::uint32_t seed) {
 }
 
 // Leaves are brighter outside and above, darker in the hollows.
-Vec3f leaf_shade(float bump, float upward) { return Vec3f{1, 1, 1} * (0.55f + 0.45f * clamp01(bump * 1.3f) + 0.10f * upward); }
+Vec3f leaf_shade(float bump, float upward) {
+  return Vec3f{1, 1, 1} * clamp01(0.55f + 0.40f * clamp01(bump * 1.3f) + 0.10f * upward);
+}
 
 void leafy_ball(PartBuilder& b, int material, int level, Vec3f centre, float radius) {
+  // A coarse ball is kept smooth: its few faces could not follow the leaves.
+  const float depth = 0.36f * std::min(1.0f, static_cast<float>(level) / 6.0f);
   b.surface(
       material, 2 * level + 2, level + 2,
       [&](float u, float v) {
         const Vec2f a = turn(1.0f - u), e = turn(0.5f * v - 0.25f);
         const float ring = v == 0.0f || v == 1.0f ? 0.0f : e.x;
         const Vec3f d{ring * a.x, v == 0.0f ? -1.0f : (v == 1.0f ? 1.0f : e.y), ring * a.y};
-        const float bump = rough(d * radius + centre, 9.0f, 3, 201);
-        return SurfacePoint{centre + d * (radius * (0.90f + 0.20f * bump)), d, {u * 5.0f * radius, v * 2.5f * radius},
+        const float bump = rough(d * radius + centre, 9.0f / std::sqrt(radius / 0.44f), 3, 201);
+        return SurfacePoint{centre + d * (radius * (1.0f + depth * (bump - 0.5f))), d, {u * 5.0f * radius, v * 2.5f * radius},
                             leaf_shade(bump, d.y)};
       },
       Normals::kSmooth, Poles::kBoth);
@@ -52,12 +56,13 @@ void hedges(PartBuilder& b, int level) {
         [&](float u, float v) {
           // The profile is a box with round shoulders; v runs along z.
           const float across = 2.0f * clamp01(u) - 1.0f, a = std::fabs(across);
+          const float outward = std::min(1.0f, std::max(-1.0f, 3.0f * across));
           const float x = (a > 0.5f ? 0.55f : 1.1f * a) * (across < 0 ? -1.0f : 1.0f);
           const float y = a > 0.5f ? 1.75f * (1.0f - smooth_step(0.5f, 1.0f, a)) : 1.75f;
-          Vec3f p = foot + Vec3f{x, y, mix(0.0f, 15.4f, v)};
+          Vec3f p = foot + Vec3f{x, y, mix(0.0f, 17.6f, v)};
           const float bump = rough(p, 4.0f, 4, 211);
-          p = p + Vec3f{0.22f * (bump - 0.5f) * (across < 0 ? -1.0f : 1.0f), 0.30f * (bump - 0.5f), 0};
-          return SurfacePoint{p, {0, 1, 0}, {across * 2.2f, v * 15.4f}, leaf_shade(bump, a < 0.5f ? 0.5f : -0.5f)};
+          p = p + Vec3f{0.22f * (bump - 0.5f) * outward, 0.30f * (bump - 0.5f) * (1.0f - 0.7f * a), 0};
+          return SurfacePoint{p, {0, 1, 0}, {across * 2.2f, v * 17.6f}, leaf_shade(bump, a < 0.5f ? 0.5f : -0.5f)};
         },
         Normals::kSmooth);
   }
@@ -79,10 +84,45 @@ void cypress(PartBuilder& b, int level) {
       Normals::kSmooth, Poles::kBoth);
 }
 
+void olive(PartBuilder& b, int level) {
+  const auto stem = [](float t) { return Vec3f{0.25f * t * t, 1.7f * t, 0.12f * t}; };
+  b.tube(kWood, level + 2, 2, 0.13f, stem, {1, 0, 0}, false, {1, 1}, {0.6f, 0.6f, 0.6f});
+  leafy_ball(b, kOlive, level + 1, {0.25f, 2.55f, 0.1f}, 1.25f);
+  leafy_ball(b, kOlive, level, {-0.65f, 2.15f, 0.35f}, 0.85f);
+  leafy_ball(b, kOlive, level, {0.75f, 2.2f, -0.55f}, 0.90f);
+}
+
+void blossoms(PartBuilder& b, int level) {
+  // Bougainvillea: up the house's corner and along its cornice, and over the garden wall. Tufts strewn along lines.
+  struct Vine {
+    Vec3f from, to;
+    int tufts;
+    float spread, radius;
+  };
+  static constexpr Vine kVines[] = {{{-9.25f, 0.2f, -5.75f}, {-9.2f, 3.6f, -5.72f}, 22, 0.24f, 0.24f},
+                                    {{-9.3f, 3.6f, -5.7f}, {-7.6f, 4.3f, -5.72f}, 20, 0.38f, 0.30f},
+                                    {{-7.6f, 4.3f, -5.72f}, {-5.4f, 4.4f, -5.74f}, 12, 0.14f, 0.20f},
+                                    {{-10.1f, 1.05f, -3.0f}, {-10.0f, 1.05f, -0.6f}, 16, 0.20f, 0.26f},
+                                    {{-9.93f, 0.5f, -2.1f}, {-9.93f, 0.8f, -1.3f}, 7, 0.16f, 0.20f},
+                                    {{9.2f, 2.4f, -5.72f}, {8.6f, 4.25f, -5.7f}, 16, 0.28f, 0.28f}};
+  int n = 0;
+  for (const Vine& vine : kVines) {
+    for (int k = 0; k < vine.tufts; ++k, ++n) {
+      const auto random = [n](std::uint32_t which) {
+        return static_cast<float>(hash_lattice(n, 0, 240 + which) >> 8) * (1.0f / 16777216.0f);
+      };
+      const float along = (static_cast<float>(k) + random(0)) / static_cast<float>(vine.tufts);
+      const Vec3f aside{random(1) - 0.5f, random(2) - 0.5f, 0.6f * (random(3) - 0.5f)};
+      const Vec3f at = mix(vine.from, vine.to, along) + aside * (2.0f * vine.spread);
+      leafy_ball(b, k % 4 == 1 ? kFoliage : kBlossom, level, at, vine.radius * (0.6f + 0.7f * random(4)));
+    }
+  }
+}
+
 void garden_walls(PartBuilder& b, int level) {
   for (const float side : {-1.0f, 1.0f}) {
     const float x0 = std::min(side * kDeckX, side * (kDeckX + 0.3f)), x1 = x0 + 0.3f;
-    b.box(kStucco, level, {x0, -0.4f, kDeckBack}, {x1, 0.95f, kDeckFront}, 3.0f);
+    b.box(kGardenWall, level, {x0, -0.4f, kDeckBack}, {x1, 0.95f, kDeckFront}, 3.0f);
     if (level > 1) b.box(kCoping, 1, {x0 - 0.05f, 0.95f, kDeckBack}, {x1 + 0.05f, 1.02f, kDeckFront + 0.05f}, 0.6f);
   }
 }
@@ -103,12 +143,12 @@ void hills(PartBuilder& b, int level) {
         // Higher behind the house than towards the viewer's side.
         const float behind = 0.55f + 0.45f * smooth_step(0.6f, -0.8f, c.y);
         const float rise = smooth_step(22.0f, 190.0f, r), far_rise = smooth_step(150.0f, kFar, r);
-        const float y = -0.06f + behind * rise * (4.0f + 30.0f * ridge * ridge) + behind * far_rise * 62.0f * ridge +
+        const float y = -0.06f + behind * rise * (4.0f + 30.0f * ridge * ridge) + behind * far_rise * 48.0f * ridge +
                         1.2f * (knoll - 0.5f) * smooth_step(16.0f, 40.0f, r);
         // Lawn, then dry hills, then blue with the air between.
-        const Vec3f lawn{0.95f, 1.0f, 0.85f}, dry{1.20f, 1.02f, 0.80f}, wood{0.42f, 0.58f, 0.45f};
+        const Vec3f lawn{0.21f, 0.31f, 0.075f}, dry{0.52f, 0.43f, 0.18f}, wood{0.12f, 0.19f, 0.06f};
         Vec3f tint = mix(lawn, mix(dry, wood, smooth_step(0.42f, 0.60f, knoll)), smooth_step(20.0f, 60.0f, r));
-        tint = mix(tint, {1.10f, 1.55f, 3.2f}, 0.80f * smooth_step(50.0f, 400.0f, r));
+        tint = mix(tint, {0.30f, 0.44f, 0.68f}, 0.80f * smooth_step(90.0f, 400.0f, r));
         return SurfacePoint{{flat.x, y, flat.z}, {0, 1, 0}, {flat.x / 4.0f, flat.z / 4.0f}, tint};
       },
       Normals::kSmooth);

@@ -46,8 +46,8 @@ void arch(PartBuilder& b, int level, float x0) {
   b.quad(kStucco, 1, 1, {xr, kSpring, kArcadeFront}, {x0 + kBay - xr, 0, 0}, up, 3.0f);
   b.surface(kStucco, around, thick, [&](float u, float v) {
     const Vec2f a = on_arch(1.0f - u, kArchRadius), n = turn(0.5f * u);
-    const float z = mix(kArcadeFront, kArcadeBack, 1.0f - v);
-    const float shade = mix(0.62f, 0.85f, v);
+    const float z = mix(kArcadeFront, kArcadeBack, v);
+    const float shade = mix(0.85f, 0.62f, v);
     return SurfacePoint{{a.x, a.y, z}, {-n.x, -n.y, 0}, {u * 1.25f, z / 3.0f}, kWhite * shade};
   });
   if (level < 2) return;

@@ -11,15 +11,15 @@ inline constexpr float kHalfX = 5.0f, kHalfZ = 2.5f;
 inline constexpr float kShallow = 1.2f, kDeep = 2.2f;
 inline constexpr float kCopingTop = 0.12f, kDeckY = 0.10f, kBandBottom = -0.15f;
 inline constexpr float kCopingOut = 0.36f;
-inline constexpr float kDeckX = 10.0f, kDeckBack = -8.6f, kDeckFront = 6.5f;
+inline constexpr float kDeckX = 10.0f, kDeckBack = -8.6f, kDeckFront = 8.5f;
 inline constexpr float kArcadeFront = -5.9f, kArcadeBack = -6.3f, kBay = 3.0f;
 inline constexpr int kBays = 6;
 
 inline float floor_y(float x) { return -mix(kShallow, kDeep, (x + kHalfX) / (2 * kHalfX)); }
 
 enum Mat : int {
-  kTiles, kLane, kBand, kCoping, kPavers, kStucco, kOchre, kRoof, kMarble, kWood, kShutter, kGlass, kChrome, kBall, kRing,
-  kDiveRing, kCushion, kAwning, kTerracotta, kFoliage, kCypress, kGrass, kTrunk, kMatCount
+  kTiles, kLane, kBand, kCoping, kPavers, kStucco, kOchre, kRoof, kMarble, kWood, kShutter, kGardenWall, kGlass, kChrome, kBall, kRing,
+  kDiveRing, kCushion, kAwning, kTerracotta, kFoliage, kCypress, kOlive, kBlossom, kGrass, kMatCount
 };
 
 Materials make_materials();
@@ -48,6 +48,8 @@ void garden_walls(PartBuilder& b, int level);
 void pot(PartBuilder& b, int level);  // with a clipped ball of box; at the origin
 void hedges(PartBuilder& b, int level);
 void cypress(PartBuilder& b, int level);  // at the origin
+void olive(PartBuilder& b, int level);    // a tree at the origin
+void blossoms(PartBuilder& b, int level);
 void hills(PartBuilder& b, int level);    // level is about the quads
 
 }  // namespace shoal::pool

@@ -203,16 +203,16 @@ Texture make_foliage() {
   return paint_texture(512, 512, [](float u, float v) {
     const float big = fractal_noise(u * 10.0f, v * 10.0f, 10, 3, 91), leaf = fractal_noise(u * 56.0f, v * 56.0f, 56, 3, 92);
     const float lit = ramp(0.32f, 0.72f, 0.35f * big + 0.65f * leaf);
-    Vec3f c = lerp(Vec3f{0.10f, 0.20f, 0.08f}, Vec3f{0.38f, 0.54f, 0.20f}, lit);
-    return lerp(c, Vec3f{0.62f, 0.72f, 0.34f}, 0.6f * ramp(0.62f, 0.85f, leaf));
+    const Vec3f c = lerp(Vec3f{0.34f, 0.36f, 0.36f}, Vec3f{0.88f, 0.88f, 0.82f}, lit);
+    return lerp(c, Vec3f{1.0f, 0.99f, 0.90f}, 0.7f * ramp(0.62f, 0.85f, leaf));
   });
 }
 
 Texture make_grass() {
   return paint_texture(512, 512, [](float u, float v) {
     const float patch = fractal_noise(u * 6.0f, v * 6.0f, 6, 4, 101), blade = fractal_noise(u * 96.0f, v * 96.0f, 96, 2, 102);
-    Vec3f c = lerp(Vec3f{0.34f, 0.47f, 0.18f}, Vec3f{0.52f, 0.62f, 0.27f}, patch);
-    return c * (0.82f + 0.36f * blade);
+    const Vec3f c = lerp(Vec3f{0.80f, 0.84f, 0.80f}, Vec3f{1.0f, 0.98f, 0.90f}, patch);
+    return c * (0.78f + 0.28f * blade);
   });
 }
 
@@ -256,7 +256,7 @@ Texture make_ripple_marble() {
     vein = 1.0f - ramp(0.0f, 0.05f, std::fabs(vein - 0.5f));
     const float fade = ramp(0.0f, 0.1f, std::min(std::min(u, 1.0f - u), std::min(v, 1.0f - v)));
     const Vec3f c = lerp(Vec3f{0.88f, 0.86f, 0.83f}, Vec3f{0.97f, 0.96f, 0.94f}, bend);
-    return c * (1.0f - 0.10f * vein * fade);
+    return c * (1.0f - 0.05f * vein * fade);
   });
 }
 

@@ -25,8 +25,8 @@ Texture make_coping();           // 0.6 m along u: a pale stone
 Texture make_stucco();           // 3 m, near white: tint by the material's colour
 Texture make_roof_tiles();       // 1.2 m: clay, courses along v
 Texture make_planks();           // 1.2 m: 8 boards along u
-Texture make_foliage();          // 1 m of clipped leaves
-Texture make_grass();            // 4 m of lawn
+Texture make_foliage();          // 1 m of leaves, near white: tint by the material's colour
+Texture make_grass();            // 4 m of grass, near white: tint by vertex colours
 Texture make_beach_ball();       // once around u: six gores, caps at v = 0 and 1
 Texture make_ring_stripes();     // once around u: eight stripes
 Texture make_awning();           // once around u: sixteen stripes
