@@ -52,13 +52,14 @@ void add_water_keys(const RenderScene& scene, Json& settings) {
   std::vector<Json> bodies;
   for (const WaterBody& body : scene.waters) bodies.push_back(water_json(body));
   for (const auto& [key, value] : bodies.front().items()) {
+    const std::string name = key == "size" ? "water_size" : key;  // `size` is the frame's
     const bool same = std::all_of(bodies.begin(), bodies.end(), [&](const Json& b) { return b.at(key) == value; });
     if (same) {
-      settings[key] = value;
+      settings[name] = value;
       continue;
     }
-    settings[key] = Json::array();
-    for (const Json& body : bodies) settings[key].push_back(body.at(key));
+    settings[name] = Json::array();
+    for (const Json& body : bodies) settings[name].push_back(body.at(key));
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include "app/values.h"
 #include "core/error.h"
+#include "scene/images_png.h"
 
 namespace shoal::app {
 namespace {
@@ -26,11 +27,27 @@ constexpr int kMaxChannels = 1024;
 
 // --- Writing --------------------------------------------------------------------------------------------------------
 
-// An image being written to an open stream. Errors of the stream itself stay with the stream.
+// A stream that remembers why it failed: the libraries only tell that it did.
+class RecordingFile : public OIIO::Filesystem::IOFile {
+ public:
+  explicit RecordingFile(std::FILE* file) : IOFile(file, OIIO::Filesystem::IOProxy::Write) {}
+  std::size_t write(const void* data, std::size_t size) override {
+    errno = 0;
+    const std::size_t written = IOFile::write(data, size);
+    if (written != size && error_ == 0) error_ = errno ? errno : EIO;
+    return written;
+  }
+  int error() const { return error_; }
+
+ private:
+  int error_ = 0;
+};
+
+// An image being written to an open stream.
 class Writer {
  public:
   Writer(std::FILE* file, const std::string& path, const char* format, OIIO::ImageSpec spec)
-      : path_(path), proxy_(file, OIIO::Filesystem::IOProxy::Write), output_(OIIO::ImageOutput::create(format)) {
+      : path_(path), proxy_(file), output_(OIIO::ImageOutput::create(format)) {
     if (!output_) fail(path_, fmt::format("no writer for {}", format), "an OpenImageIO that has one");
     OIIO::Filesystem::IOProxy* proxy = &proxy_;
     spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
@@ -45,11 +62,12 @@ class Writer {
 
  private:
   void check(bool ok) const {
+    if (proxy_.error()) fail(path_, fmt::format("cannot be written ({})", std::strerror(proxy_.error())), "a writable file");
     if (!ok) fail(path_, "cannot be written (" + output_->geterror() + ")", "a writable file");
   }
 
   std::string path_;
-  OIIO::Filesystem::IOFile proxy_;
+  RecordingFile proxy_;
   std::unique_ptr<OIIO::ImageOutput> output_;
 };
 
@@ -116,19 +134,32 @@ void add_aov_sources(const AovImage& image, std::vector<Source>& sources) {
 
 // --- Reading --------------------------------------------------------------------------------------------------------
 
-Picture::Format read_format(const std::string& path) {
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (!file) fail(path, fmt::format("cannot be read ({})", std::strerror(errno)), "a PNG or EXR file");
-  unsigned char magic[4] = {};
-  const std::size_t read = std::fread(magic, 1, sizeof magic, file);
-  const bool failed = std::ferror(file) != 0;
-  const int error = errno;
-  std::fclose(file);
-  if (failed) fail(path, fmt::format("cannot be read ({})", std::strerror(error)), "a PNG or EXR file");
-  constexpr unsigned char kPng[4] = {0x89, 'P', 'N', 'G'}, kExr[4] = {0x76, 0x2f, 0x31, 0x01};
-  if (read == sizeof magic && std::memcmp(magic, kPng, sizeof magic) == 0) return Picture::Format::kPng;
-  if (read == sizeof magic && std::memcmp(magic, kExr, sizeof magic) == 0) return Picture::Format::kExr;
-  fail(path, read == 0 ? "is empty" : "is neither a PNG nor an EXR", "one of them");
+std::vector<std::uint8_t> read_file(const std::string& path) {
+  const auto refuse = [&] {
+    fail(path, fmt::format("cannot be read ({})", std::strerror(errno)), "a PNG or EXR file");
+  };
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  if (!file) refuse();
+  std::vector<std::uint8_t> bytes;
+  constexpr std::size_t kStep = std::size_t{1} << 20;
+  for (std::size_t read = kStep; read == kStep;) {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + kStep);
+    read = std::fread(bytes.data() + size, 1, kStep, file.get());
+    if (std::ferror(file.get())) refuse();
+    bytes.resize(size + read);
+  }
+  return bytes;
+}
+
+Picture::Format format_of(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+  constexpr std::uint8_t kPng[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'}, kExr[4] = {0x76, 0x2f, 0x31, 0x01};
+  const auto begins_with = [&](const auto& magic) {
+    return bytes.size() >= sizeof magic && std::memcmp(bytes.data(), magic, sizeof magic) == 0;
+  };
+  if (begins_with(kPng)) return Picture::Format::kPng;
+  if (begins_with(kExr)) return Picture::Format::kExr;
+  fail(path, bytes.empty() ? "is empty" : "is neither a PNG nor an EXR", "one of them");
 }
 
 SampleType sample_type(const std::string& path, OIIO::TypeDesc type) {
@@ -196,13 +227,18 @@ const PictureChannel* Picture::find(const std::string& name) const {
 
 Picture read_picture(const std::string& path) {
   Picture picture;
-  picture.format = read_format(path);
+  std::vector<std::uint8_t> bytes = read_file(path);
+  picture.format = format_of(path, bytes);
+  if (picture.format == Picture::Format::kPng) bytes = png_pixels_only(bytes, path);
   const char* format = picture.format == Picture::Format::kPng ? "png" : "openexr";
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
   if (!input) fail(path, fmt::format("no reader for {}", format), "an OpenImageIO that has one");
   OIIO::ImageSpec wanted, spec;
   wanted.attribute("oiio:UnassociatedAlpha", 1);  // the samples as they are in the file
-  if (!input->open(path, spec, wanted)) fail(path, "cannot be read (" + input->geterror() + ")", "an intact picture");
+  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+  if (!input->set_ioproxy(&memory) || !input->open("memory", spec, wanted)) {
+    fail(path, "cannot be read (" + input->geterror() + ")", "an intact picture");
+  }
   if (spec.width < 1 || spec.width > kMaxSize || spec.height < 1 || spec.height > kMaxSize || spec.depth > 1 ||
       spec.nchannels < 1 || spec.nchannels > kMaxChannels) {
     fail(path, fmt::format("has {} x {} pixels of {} channels", spec.width, spec.height, spec.nchannels),

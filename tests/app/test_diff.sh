@@ -72,7 +72,7 @@ exits "not a number and 1" 3 "$shoal" diff nan.exr one.exr --json nan.json
 equals "has no largest difference" "null" "$(field nan.json max_abs)"
 exits "infinity and 1" 3 "$shoal" diff inf.exr one.exr --json inf.json
 exits "one last bit" 3 "$shoal" diff one.exr next.exr --json bit.json
-equals "is that large" "1.1920928955078125e-07" "$(field bit.json max_abs)"
+equals "is that large" "1.1920928955078125e-07" "$(grep -oE '"max_abs": [^,]+' bit.json | cut -d" " -f2)"
 equals "and there" "0,0,R" "$(field bit.json first)"
 
 # Unreadable, or not to be compared: exit 1.
@@ -90,7 +90,7 @@ mkdir folder.png
 refuses 1 "folder.png: " "$shoal" diff a.png folder.png
 for size in 9 40 700; do
   head -c $size a.png >cut.png
-  refuses 1 "cut.png: cannot be read" "$shoal" diff a.png cut.png
+  refuses 1 "cut.png: is (cut short|neither)" "$shoal" diff a.png cut.png
 done
 for size in 9 300 3000; do
   head -c $size a.exr >cut.exr

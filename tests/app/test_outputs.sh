@@ -149,7 +149,7 @@ refuses 1 "nowhere/x.json: cannot be written" "$shoal" render box -o keep.png --
 ln -s /dev/full full.png
 ln -s /dev/full full.exr
 refuses 1 "full.png: cannot be written .*No space" "$shoal" render box -o full.png $small
-refuses 1 "full.exr: cannot be written .*full" "$shoal" render box -o full.exr $small
+refuses 1 "full.exr: cannot be written .*No space" "$shoal" render box -o full.exr $small
 refuses 1 "/dev/full: cannot be written" "$shoal" render box -o keep.png --camera 1 $small --json /dev/full
 limited() { (ulimit -f 1; "$@"); }
 refuses 1 "keep.png: cannot be written .*too large" limited "$shoal" render box -o keep.png --camera 1 --size 320x200
