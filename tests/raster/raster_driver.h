@@ -1,0 +1,61 @@
+// The pipeline as a user of the library drives it: a geometry, a vertex program, tiles, visible ids.
+// docs/tutorials/programs.md walks through it; the raster tests use it too.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "raster/front_end.h"
+#include "raster/visibility.h"
+
+namespace shoal_test {
+
+using namespace shoal;
+
+inline GeometryView view_of(const Geometry& g, const Materials& m) {
+  return {g.x_world.data(), g.y_world.data(), g.z_world.data(), {g.corner0.data(), g.corner1.data(), g.corner2.data()},
+          g.chunks.data(), g.vertices.data(), g.colors.empty() ? nullptr : g.colors.data(), g.triangles.data(),
+          m.materials.data(), m.textures.data()};
+}
+
+// A pass over the whole frame, pixel (0, 0) top left.
+inline PassSettings whole_frame(int width_px, int height_px, Vec2f centre_px, int tile_px) {
+  PassSettings pass;
+  pass.width_px = width_px, pass.height_px = height_px;
+  pass.centre_px = centre_px;
+  pass.grid = make_bin_grid(width_px, height_px, tile_px);
+  pass.x_max = width_px - 1, pass.y_max = height_px - 1;
+  return pass;
+}
+
+// Chunks through the vertex program into bins, `per_item` chunks an item.
+template <class Program>
+std::vector<BinItem> bin_geometry(const Geometry& g, const Materials& m, const Program& program, const PassSettings& pass,
+                                  std::uint32_t per_item) {
+  const GeometryView view = view_of(g, m);
+  const std::uint32_t chunks = static_cast<std::uint32_t>(g.chunks.size());
+  std::vector<BinItem> items((chunks + per_item - 1) / per_item);
+  for (std::uint32_t i = 0; i < items.size(); ++i) {
+    const std::uint32_t first = i * per_item;
+    FrontEnd<Program>(view, program, pass, items[i]).run(first, std::min(first + per_item, chunks), kNoId);
+  }
+  return items;
+}
+
+// Bins to visible ids and depths. `alpha` cuts pixels of masked materials (KeepAll: none).
+template <class AlphaTest>
+void draw_tiles(const std::vector<BinItem>& items, const PassSettings& pass, const AlphaTest& alpha, VisibilityBuffer& out) {
+  const BinGrid& grid = pass.grid;
+  out.resize(make_frame_grid(pass.width_px, pass.height_px));
+  for (int ty = 0; ty < grid.tiles_y; ++ty)
+    for (int tx = 0; tx < grid.tiles_x; ++tx) {
+      const int x0 = tx * grid.tile_px, y0 = ty * grid.tile_px;
+      TileRaster<AlphaTest> raster(out, alpha, x0, y0, std::min(x0 + grid.tile_px, pass.width_px),
+                                   std::min(y0 + grid.tile_px, pass.height_px));
+      raster.clear();
+      for (const BinItem& item : items) raster.draw(item, static_cast<std::uint32_t>(ty * grid.tiles_x + tx));
+    }
+}
+
+}  // namespace shoal_test
