@@ -51,11 +51,12 @@ void add_water_keys(const RenderScene& scene, Json& settings) {
   if (scene.waters.empty()) return;
   std::vector<Json> bodies;
   for (const WaterBody& body : scene.waters) bodies.push_back(water_json(body));
-  for (const auto& [key, value] : bodies.front().items()) {
+  for (const auto& item : bodies.front().items()) {
+    const std::string key = item.key();
     const std::string name = key == "size" ? "water_size" : key;  // `size` is the frame's
-    const bool same = std::all_of(bodies.begin(), bodies.end(), [&](const Json& b) { return b.at(key) == value; });
+    const bool same = std::all_of(bodies.begin(), bodies.end(), [&](const Json& b) { return b.at(key) == item.value(); });
     if (same) {
-      settings[name] = value;
+      settings[name] = item.value();
       continue;
     }
     settings[name] = Json::array();
