@@ -111,10 +111,11 @@ class GlbWriter {
   template <class T>
   std::size_t add_accessor(const std::vector<T>& values, const char* type) {
     const bool is_index = std::is_same_v<T, std::uint32_t>;
-    root_["accessors"].push_back({{"bufferView", add_view(bytes_of(values), is_index ? kElementArrayBuffer : kArrayBuffer)},
-                                  {"componentType", is_index ? kUnsignedInt : kFloat},
-                                  {"count", values.size()},
-                                  {"type", type}});
+    root_["accessors"].push_back(
+        {{"bufferView", add_view(bytes_of(values), is_index ? kElementArrayBuffer : kArrayBuffer)},
+         {"componentType", is_index ? kUnsignedInt : kFloat},
+         {"count", values.size()},
+         {"type", type}});
     return root_["accessors"].size() - 1;
   }
 
@@ -192,7 +193,7 @@ json GlbWriter::node_json(const Node& node) const {
 }
 
 void GlbWriter::add_nodes() {
-  std::vector<gltf::Affine> worlds;     // as the loader will have them
+  std::vector<gltf::Affine> worlds;    // as the loader will have them
   std::vector<std::size_t> ancestors;  // of the next node
   for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
     const Node& node = scene_.nodes[i];
@@ -300,10 +301,11 @@ std::size_t GlbWriter::texture_number(std::int32_t image, const Sampler& sampler
     list.push_back(item);
     return list.size() - 1;
   };
-  const std::size_t sampler_number = number_of(root_["samplers"], {{"magFilter", sampler.magnify == Filter::kLinear ? 9729 : 9728},
-                                                                   {"minFilter", minify_code(sampler)},
-                                                                   {"wrapS", wrap_code(sampler.wrap_u)},
-                                                                   {"wrapT", wrap_code(sampler.wrap_v)}});
+  const std::size_t sampler_number =
+      number_of(root_["samplers"], {{"magFilter", sampler.magnify == Filter::kLinear ? 9729 : 9728},
+                                    {"minFilter", minify_code(sampler)},
+                                    {"wrapS", wrap_code(sampler.wrap_u)},
+                                    {"wrapT", wrap_code(sampler.wrap_v)}});
   return number_of(root_["textures"], {{"sampler", sampler_number}, {"source", image}});
 }
 

@@ -10,12 +10,16 @@ namespace {
 int component_size(int component_type) {
   switch (component_type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 1;
     case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 2;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT: return 4;
-    default: return 0;
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return 4;
+    default:
+      return 0;
   }
 }
 
@@ -50,7 +54,8 @@ float load_component(const std::uint8_t* at, int component_type, bool normalized
       const float value = static_cast<float>(static_cast<std::int16_t>(load_unsigned(at, 2)));
       return normalized ? std::fmax(value / 32767.0f, -1.0f) : value;
     }
-    default: return 0;
+    default:
+      return 0;
   }
 }
 
@@ -111,12 +116,12 @@ void apply_sparse(Document& document, const tinygltf::Accessor& accessor, const 
   }
   const int index_size = component_size(index_type);
   const int size = component_size(accessor.componentType);
-  const Elements indices = locate(document, sparse.indices.bufferView,
-                                  static_cast<std::uint64_t>(sparse.indices.byteOffset), count, index_size, index_size,
-                                  false, label + ".sparse.indices");
-  const Elements replaced = locate(document, sparse.values.bufferView,
-                                   static_cast<std::uint64_t>(sparse.values.byteOffset), count, size * components,
-                                   size, false, label + ".sparse.values");
+  const Elements indices =
+      locate(document, sparse.indices.bufferView, static_cast<std::uint64_t>(sparse.indices.byteOffset), count,
+             index_size, index_size, false, label + ".sparse.indices");
+  const Elements replaced =
+      locate(document, sparse.values.bufferView, static_cast<std::uint64_t>(sparse.values.byteOffset), count,
+             size * components, size, false, label + ".sparse.values");
   std::uint64_t previous = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t index = sparse_index(indices.first, i, index_size);
@@ -178,8 +183,9 @@ std::vector<float> read_floats(Document& document, std::size_t index, int compon
   if (accessor.sparse.isSparse) apply_sparse(document, accessor, label, components, values);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i])) {
-      fail(document.path, label + " holds " + (std::isnan(values[i]) ? "NaN" : "an infinity") + " in element " +
-                              std::to_string(i / static_cast<std::size_t>(components)),
+      fail(document.path,
+           label + " holds " + (std::isnan(values[i]) ? "NaN" : "an infinity") + " in element " +
+               std::to_string(i / static_cast<std::size_t>(components)),
            "expected finite numbers");
     }
   }

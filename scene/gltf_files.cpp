@@ -28,8 +28,9 @@ std::vector<std::uint8_t> read_file(const std::string& path, std::uint64_t max_b
   }
   std::ifstream in(path, std::ios::binary);
   if (!in) {
-    fail(blame, (path == blame ? std::string("cannot be opened") : "the file " + path + " cannot be opened") + " (" +
-                    std::strerror(errno) + ")",
+    fail(blame,
+         (path == blame ? std::string("cannot be opened") : "the file " + path + " cannot be opened") + " (" +
+             std::strerror(errno) + ")",
          "expected a readable file");
   }
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));

@@ -23,10 +23,14 @@ float factor(Document& document, double value, double max, const std::string& wh
 
 Wrap wrap_mode(Document& document, int mode, const std::string& label) {
   switch (mode) {
-    case TINYGLTF_TEXTURE_WRAP_REPEAT: return Wrap::kRepeat;
-    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT: return Wrap::kMirror;
-    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE: return Wrap::kClamp;
-    default: fail(document.path, label + " has wrap mode " + std::to_string(mode), "expected 10497, 33071 or 33648");
+    case TINYGLTF_TEXTURE_WRAP_REPEAT:
+      return Wrap::kRepeat;
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+      return Wrap::kMirror;
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+      return Wrap::kClamp;
+    default:
+      fail(document.path, label + " has wrap mode " + std::to_string(mode), "expected 10497, 33071 or 33648");
   }
 }
 
@@ -39,9 +43,14 @@ Sampler read_sampler(Document& document, int index) {
   sampler.wrap_v = wrap_mode(document, from.wrapT, label);
   switch (from.magFilter) {
     case -1:
-    case TINYGLTF_TEXTURE_FILTER_LINEAR: sampler.magnify = Filter::kLinear; break;
-    case TINYGLTF_TEXTURE_FILTER_NEAREST: sampler.magnify = Filter::kNearest; break;
-    default: fail(document.path, label + " has magFilter " + std::to_string(from.magFilter), "expected 9728 or 9729");
+    case TINYGLTF_TEXTURE_FILTER_LINEAR:
+      sampler.magnify = Filter::kLinear;
+      break;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST:
+      sampler.magnify = Filter::kNearest;
+      break;
+    default:
+      fail(document.path, label + " has magFilter " + std::to_string(from.magFilter), "expected 9728 or 9729");
   }
   struct Minify {
     int code;
@@ -55,10 +64,11 @@ Sampler read_sampler(Document& document, int index) {
                                 {TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST, Filter::kLinear, MipFilter::kNearest},
                                 {TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR, Filter::kNearest, MipFilter::kLinear},
                                 {TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR, Filter::kLinear, MipFilter::kLinear}};
-  const auto it = std::find_if(std::begin(kMinify), std::end(kMinify),
-                               [&](const Minify& m) { return m.code == from.minFilter; });
+  const auto it =
+      std::find_if(std::begin(kMinify), std::end(kMinify), [&](const Minify& m) { return m.code == from.minFilter; });
   if (it == std::end(kMinify)) {
-    fail(document.path, label + " has minFilter " + std::to_string(from.minFilter), "expected 9728, 9729 or 9984 to 9987");
+    fail(document.path, label + " has minFilter " + std::to_string(from.minFilter),
+         "expected 9728, 9729 or 9984 to 9987");
   }
   sampler.minify = it->filter;
   sampler.mip = it->mip;
@@ -169,7 +179,8 @@ void read_alpha(Document& document, const tinygltf::Material& from, const std::s
     material.alpha_mode = AlphaMode::kBlend;
     warn(document, "blended materials are not read yet: drawn opaque");
   } else if (from.alphaMode != "OPAQUE") {
-    fail(document.path, label + " has alphaMode '" + one_line(from.alphaMode, 40) + "'", "expected OPAQUE, MASK or BLEND");
+    fail(document.path, label + " has alphaMode '" + one_line(from.alphaMode, 40) + "'",
+         "expected OPAQUE, MASK or BLEND");
   }
   material.alpha_cutoff = factor(document, from.alphaCutoff, 1e6, "alphaCutoff");
 }

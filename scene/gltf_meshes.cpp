@@ -15,11 +15,16 @@ struct Attribute {
 
 int components_of(int type) {
   switch (type) {
-    case TINYGLTF_TYPE_SCALAR: return 1;
-    case TINYGLTF_TYPE_VEC2: return 2;
-    case TINYGLTF_TYPE_VEC3: return 3;
-    case TINYGLTF_TYPE_VEC4: return 4;
-    default: return 0;
+    case TINYGLTF_TYPE_SCALAR:
+      return 1;
+    case TINYGLTF_TYPE_VEC2:
+      return 2;
+    case TINYGLTF_TYPE_VEC3:
+      return 3;
+    case TINYGLTF_TYPE_VEC4:
+      return 4;
+    default:
+      return 0;
   }
 }
 
@@ -116,8 +121,8 @@ std::vector<T> expanded(const std::vector<T>& values, const std::vector<std::uin
 
 // One vertex a corner, so that each triangle has its own normal.
 void generate_flat_normals(Document& document, MeshPrimitive& mesh, const std::string& label) {
-  const std::uint64_t corner_bytes = 2 * sizeof(Vec3f) + (mesh.uvs.empty() ? 0 : sizeof(Vec2f)) +
-                                     (mesh.colors.empty() ? 0 : sizeof(Vec4f));
+  const std::uint64_t corner_bytes =
+      2 * sizeof(Vec3f) + (mesh.uvs.empty() ? 0 : sizeof(Vec2f)) + (mesh.colors.empty() ? 0 : sizeof(Vec4f));
   charge(document, mesh.indices.size() * corner_bytes, label);
   mesh.positions = expanded(mesh.positions, mesh.indices);
   mesh.uvs = expanded(mesh.uvs, mesh.indices);
@@ -143,7 +148,8 @@ void read_positions(Document& document, const Attribute& attribute, const std::s
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::fabs(values[i]) > limit) {
-      fail(document.path, label + ".POSITION[" + std::to_string(i / 3) + "] is " + std::to_string(values[i]) + " m away",
+      fail(document.path,
+           label + ".POSITION[" + std::to_string(i / 3) + "] is " + std::to_string(values[i]) + " m away",
            "expected vertices within " + std::to_string(limit) + " m");
     }
   }

@@ -36,7 +36,8 @@ CameraSpec read_camera(const Document& document, const tinygltf::Camera& from, c
     const tinygltf::PerspectiveCamera& lens = from.perspective;
     camera.yfov = in_range(document, lens.yfov, 0, 3.14159, label + ".yfov", "an angle between 0 and pi radians");
     camera.znear = in_range(document, lens.znear, 0, kHuge, label + ".znear", metres);
-    if (lens.zfar != 0) camera.zfar = in_range(document, lens.zfar, lens.znear, kHuge, label + ".zfar", "more than znear");
+    if (lens.zfar != 0)
+      camera.zfar = in_range(document, lens.zfar, lens.znear, kHuge, label + ".zfar", "more than znear");
   }
   return camera;
 }
@@ -49,7 +50,8 @@ std::vector<std::int32_t> read_lights(Document& document, Scene& scene) {
     const std::string label = label_of("lights", i, from.name);
     if (from.type != "directional") {
       if (from.type != "point" && from.type != "spot") {
-        fail(document.path, label + " has type '" + one_line(from.type, 40) + "'", "expected directional, point or spot");
+        fail(document.path, label + " has type '" + one_line(from.type, 40) + "'",
+             "expected directional, point or spot");
       }
       warn(document, from.type + " lights are not read yet");
       places.push_back(kNoIndex);
@@ -93,7 +95,8 @@ Affine trs_transform(const Document& document, const tinygltf::Node& node, const
     double x = node.rotation[0], y = node.rotation[1], z = node.rotation[2], w = node.rotation[3];
     const double square = ((x * x + y * y) + z * z) + w * w;
     if (!(square > 1e-12 && square < 1e12)) {
-      fail(document.path, label + ".rotation has length " + std::to_string(std::sqrt(square)), "expected a unit quaternion");
+      fail(document.path, label + ".rotation has length " + std::to_string(std::sqrt(square)),
+           "expected a unit quaternion");
     }
     const double length = std::sqrt(square);
     x /= length;
@@ -205,7 +208,8 @@ class TreeReader {
   void check_finite(const Mat4& m, const std::string& label) const {
     for (const auto& row : m.m) {
       for (const float value : row) {
-        if (!std::isfinite(value)) fail(document_.path, label + " has a transform that overflows", "expected finite numbers");
+        if (!std::isfinite(value))
+          fail(document_.path, label + " has a transform that overflows", "expected finite numbers");
       }
     }
   }

@@ -33,8 +33,9 @@ Container split_glb(const Document& document) {
   if (version != 2) fail(path, "is of glTF version " + std::to_string(version), "expected version 2");
   const std::uint64_t length = read_u32(file, 8);
   if (length > file.size()) {
-    fail(path, "is truncated: its header says " + std::to_string(length) + " bytes, it has " +
-                   std::to_string(file.size()), "expected the whole file");
+    fail(path,
+         "is truncated: its header says " + std::to_string(length) + " bytes, it has " + std::to_string(file.size()),
+         "expected the whole file");
   }
   const std::uint64_t json_length = read_u32(file, 12);
   if (read_u32(file, 16) != 0x4E4F534Au) fail(path, "has no JSON as its first chunk", "expected a glTF 2.0 .glb file");
@@ -131,9 +132,9 @@ void load_buffers(Document& document, const json& root, const Container& parts) 
     } else {
       const std::string& uri = buffers[i]["uri"].get_ref<const std::string&>();
       std::vector<std::uint8_t>& storage = document.buffer_storage[i];
-      storage = is_data_uri(uri) ? decode_data_uri(document, uri, label)
-                                 : read_file(resolve_uri(document, uri, label), document.limits.max_file_bytes,
-                                             document.path);
+      storage = is_data_uri(uri)
+                    ? decode_data_uri(document, uri, label)
+                    : read_file(resolve_uri(document, uri, label), document.limits.max_file_bytes, document.path);
       bytes = storage;
     }
     if (bytes.size() < length) {

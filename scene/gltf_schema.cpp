@@ -38,7 +38,8 @@ class Checker {
 
   static std::string text_of(const json& value) {
     return one_line(value.is_structured() ? std::string(value.type_name())
-                                          : value.dump(-1, ' ', false, json::error_handler_t::replace), 40);
+                                          : value.dump(-1, ' ', false, json::error_handler_t::replace),
+                    40);
   }
 
   // The member, or null where it is absent and may be.
@@ -78,8 +79,8 @@ class Checker {
       if (number == std::floor(number) && number >= 0 && number < 9e15) *value = static_cast<std::uint64_t>(number);
     }
     if (!value->is_number_unsigned() || value->get<std::uint64_t>() >= size) {
-      wrong(where + " is " + text_of(*value), "expected the index of one of the file's " + std::to_string(size) + " " +
-                                                  section);
+      wrong(where + " is " + text_of(*value),
+            "expected the index of one of the file's " + std::to_string(size) + " " + section);
     }
   }
   void index(json& object, const char* key, const std::string& where, const char* section,
@@ -89,7 +90,8 @@ class Checker {
 
   void number(json& object, const char* key, const std::string& where, Need need = Need::kOptional) const {
     const json* value = member(object, key, where, need);
-    if (value != nullptr && !value->is_number()) wrong(where + "." + key + " is " + text_of(*value), "expected a number");
+    if (value != nullptr && !value->is_number())
+      wrong(where + "." + key + " is " + text_of(*value), "expected a number");
   }
 
   void numbers(json& object, const char* key, const std::string& where, std::size_t size) const {
@@ -105,7 +107,8 @@ class Checker {
 
   void string(json& object, const char* key, const std::string& where, Need need = Need::kOptional) const {
     const json* value = member(object, key, where, need);
-    if (value != nullptr && !value->is_string()) wrong(where + "." + key + " is " + text_of(*value), "expected a string");
+    if (value != nullptr && !value->is_string())
+      wrong(where + "." + key + " is " + text_of(*value), "expected a string");
   }
   void boolean(json& object, const char* key, const std::string& where) const {
     const json* value = member(object, key, where);
@@ -116,12 +119,14 @@ class Checker {
 
   json* object(json& parent, const char* key, const std::string& where, Need need = Need::kOptional) const {
     json* value = member(parent, key, where, need);
-    if (value != nullptr && !value->is_object()) wrong(where + "." + key + " is " + text_of(*value), "expected an object");
+    if (value != nullptr && !value->is_object())
+      wrong(where + "." + key + " is " + text_of(*value), "expected an object");
     return value;
   }
   json* array(json& parent, const char* key, const std::string& where, Need need = Need::kOptional) const {
     json* value = member(parent, key, where, need);
-    if (value != nullptr && !value->is_array()) wrong(where + "." + key + " is " + text_of(*value), "expected an array");
+    if (value != nullptr && !value->is_array())
+      wrong(where + "." + key + " is " + text_of(*value), "expected an array");
     return value;
   }
 
@@ -181,7 +186,8 @@ void Checker::check_extensions() const {
       const std::string extension = name.get<std::string>();
       if (is_supported(extension)) continue;
       if (key == std::string("extensionsRequired")) {
-        if (required.insert(extension).second) unsupported += (unsupported.empty() ? "" : ", ") + one_line(extension, 60);
+        if (required.insert(extension).second)
+          unsupported += (unsupported.empty() ? "" : ", ") + one_line(extension, 60);
       } else if (required.count(extension) == 0) {
         warn(document_, "extension " + extension + " is not read yet");
       }
@@ -304,8 +310,7 @@ void Checker::check_materials() const {
     boolean(material, "doubleSided", where);
     string(material, "alphaMode", where);
     json* extensions = object(material, "extensions", where);
-    json* strength =
-        extensions == nullptr ? nullptr : object(*extensions, "KHR_materials_emissive_strength", where);
+    json* strength = extensions == nullptr ? nullptr : object(*extensions, "KHR_materials_emissive_strength", where);
     if (strength != nullptr) number(*strength, "emissiveStrength", where);
   });
   each("textures", [&](json& texture, const std::string& where) {
@@ -317,8 +322,9 @@ void Checker::check_materials() const {
     string(image, "uri", where);
     string(image, "mimeType", where);
     if (image.contains("uri") == image.contains("bufferView")) {
-      wrong(where + (image.contains("uri") ? " has both a URI and a bufferView" : " has neither a URI nor a bufferView"),
-            "expected one of the two");
+      wrong(
+          where + (image.contains("uri") ? " has both a URI and a bufferView" : " has neither a URI nor a bufferView"),
+          "expected one of the two");
     }
   });
   each("samplers", [&](json& sampler, const std::string& where) {
@@ -407,7 +413,8 @@ void Checker::check_trees() const {
       const std::size_t c = child.get<std::size_t>();
       if (parent[c] >= 0) {
         wrong(label_of("nodes", c) + " is a child of both " + label_of("nodes", static_cast<std::size_t>(parent[c])) +
-                  " and " + where, "expected one parent");
+                  " and " + where,
+              "expected one parent");
       }
       parent[c] = static_cast<std::int64_t>(self);
     }
@@ -417,7 +424,8 @@ void Checker::check_trees() const {
   for (std::size_t i = 0; i < parent.size(); ++i) {
     for (std::int64_t n = static_cast<std::int64_t>(i); n >= 0; n = parent[static_cast<std::size_t>(n)]) {
       std::size_t& mark = seen_by[static_cast<std::size_t>(n)];
-      if (mark == i + 1) wrong(label_of("nodes", static_cast<std::size_t>(n)) + " is its own ancestor", "expected trees");
+      if (mark == i + 1)
+        wrong(label_of("nodes", static_cast<std::size_t>(n)) + " is its own ancestor", "expected trees");
       if (mark != 0) break;
       mark = i + 1;
     }
@@ -430,7 +438,8 @@ void Checker::check_trees() const {
       if (!roots.insert(n).second) wrong(where + " names " + label_of("nodes", n) + " twice", "expected it once");
       if (parent[n] >= 0) {
         wrong(where + " names " + label_of("nodes", n) + ", which is a child of " +
-                  label_of("nodes", static_cast<std::size_t>(parent[n])), "expected root nodes");
+                  label_of("nodes", static_cast<std::size_t>(parent[n])),
+              "expected root nodes");
       }
     }
   });

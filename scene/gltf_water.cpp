@@ -106,7 +106,8 @@ void read_key(Document& document, const std::string& key, const Value& value, co
     read_surface(document, value, what, water);
   } else if (key == "geometry") {
     const std::string name = value.IsString() ? value.Get<std::string>() : std::string();
-    if (name != "normals" && name != "displaced") fail(document.path, what + " is wrong", "expected normals or displaced");
+    if (name != "normals" && name != "displaced")
+      fail(document.path, what + " is wrong", "expected normals or displaced");
     water.surface.geometry = name == "normals" ? WaterGeometry::kNormals : WaterGeometry::kDisplaced;
   } else {
     fail(document.path, what + " is no key of water", "expected " + joined(kBodyKeys));
@@ -136,8 +137,8 @@ void read_sky(const Document& document, const Value& value, const std::string& w
       sky.sun = color(document, value.Get(key), where);
     } else if (key == "to_sun") {
       const auto v = numbers(document, value.Get(key), 3, {-1.001, 1.001, false, "a unit vector [x, y, z]"}, where);
-      const double square = (static_cast<double>(v[0]) * v[0] + static_cast<double>(v[1]) * v[1]) +
-                            static_cast<double>(v[2]) * v[2];
+      const double square =
+          (static_cast<double>(v[0]) * v[0] + static_cast<double>(v[1]) * v[1]) + static_cast<double>(v[2]) * v[2];
       if (!(std::fabs(square - 1) < 1e-3)) fail(document.path, where + " is wrong", "expected a unit vector [x, y, z]");
       sky.to_sun_world = {v[0], v[1], v[2]};
     } else {

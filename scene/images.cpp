@@ -24,7 +24,8 @@ using Encoded = std::span<const std::uint8_t>;
 
 // OpenImageIO's messages may have several lines.
 std::string on_one_line(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
   while (!text.empty() && text.back() == ' ') text.pop_back();
   return text.size() > 200 ? text.substr(0, 200) + "..." : text;
 }
@@ -42,15 +43,20 @@ Format format_of(Encoded bytes, const std::string& name) {
   if (starts_with(bytes, {0xFF, 0xD8, 0xFF})) return Format::kJpeg;
   if (starts_with(bytes, {'#', '?'})) return Format::kHdr;
   if (starts_with(bytes, {0x76, 0x2F, 0x31, 0x01})) return Format::kExr;
-  fail(name, bytes.empty() ? "is empty" : "is no image of a known format", "expected PNG, JPEG, Radiance HDR or OpenEXR");
+  fail(name, bytes.empty() ? "is empty" : "is no image of a known format",
+       "expected PNG, JPEG, Radiance HDR or OpenEXR");
 }
 
 const char* reader_name(Format format) {
   switch (format) {
-    case Format::kPng: return "png";
-    case Format::kJpeg: return "jpeg";
-    case Format::kHdr: return "hdr";
-    case Format::kExr: return "openexr";
+    case Format::kPng:
+      return "png";
+    case Format::kJpeg:
+      return "jpeg";
+    case Format::kHdr:
+      return "hdr";
+    case Format::kExr:
+      return "openexr";
   }
   return "";
 }
@@ -169,8 +175,8 @@ std::uint8_t rounded_to_8_bits(std::uint16_t value) {
   return static_cast<std::uint8_t>((static_cast<std::uint32_t>(value) + 128u) / 257u);
 }
 
-void write_or_fail(std::unique_ptr<OIIO::ImageOutput> out, const OIIO::ImageSpec& spec,
-                   OIIO::Filesystem::IOProxy& sink, OIIO::TypeDesc type, const void* texels, const std::string& name) {
+void write_or_fail(std::unique_ptr<OIIO::ImageOutput> out, const OIIO::ImageSpec& spec, OIIO::Filesystem::IOProxy& sink,
+                   OIIO::TypeDesc type, const void* texels, const std::string& name) {
   const std::string why = out ? "" : OIIO::geterror();
   if (!out || !out->set_ioproxy(&sink) || !out->open("memory", spec) || !out->write_image(type, texels) ||
       !out->close()) {
@@ -216,7 +222,8 @@ Texture load_texture(const std::string& path, bool srgb, const ImageLimits& limi
   if (size > std::uint64_t{4} << 30) fail(path, "has " + std::to_string(size) + " bytes", "expected at most 4 GiB");
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (static_cast<std::uint64_t>(in.gcount()) != size) fail(path, "cannot be read to its end", "expected an image file");
+  if (static_cast<std::uint64_t>(in.gcount()) != size)
+    fail(path, "cannot be read to its end", "expected an image file");
   return decode_texture(bytes, path, srgb, limits);
 }
 

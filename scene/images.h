@@ -11,8 +11,8 @@
 namespace shoal {
 
 struct ImageLimits {
-  int max_size = 16384;                                  // texels, width and height
-  std::uint64_t max_texels = std::uint64_t{1} << 28;     // of one image
+  int max_size = 16384;                               // texels, width and height
+  std::uint64_t max_texels = std::uint64_t{1} << 28;  // of one image
 };
 
 struct ImageSize {

@@ -55,8 +55,10 @@ void check_header(Bytes data, const std::string& name) {
 
 std::vector<std::uint8_t> png_pixels_only(Bytes file, const std::string& name) {
   constexpr std::size_t kSignature = 8;
-  std::vector<std::uint8_t> kept(file.begin(), file.begin() + std::min(kSignature, file.size()));
+  if (file.size() < kSignature) fail(name, "is cut short");
+  std::vector<std::uint8_t> kept;
   kept.reserve(file.size());
+  kept.assign(file.data(), file.data() + kSignature);
   bool any_data = false;
   for (std::size_t at = kSignature; file.size() - at >= 12;) {
     const std::size_t length = read_u32(file, at);

@@ -86,7 +86,8 @@ std::size_t CraftedFile::add_view(const void* data, std::size_t size, std::size_
 
 std::size_t CraftedFile::add_accessor(const void* data, std::size_t size, int component_type, const char* type,
                                       std::size_t count, bool normalized) {
-  json accessor = {{"bufferView", add_view(data, size)}, {"componentType", component_type}, {"type", type}, {"count", count}};
+  json accessor = {
+      {"bufferView", add_view(data, size)}, {"componentType", component_type}, {"type", type}, {"count", count}};
   if (normalized) accessor["normalized"] = true;
   root["accessors"].push_back(accessor);
   return root["accessors"].size() - 1;
@@ -221,7 +222,8 @@ std::vector<Recipe> index_recipes() {
       {"accessor_negative_view", "accessors[0].bufferView is -1",
        [](CraftedFile& f) { f.root["accessors"][0]["bufferView"] = -1; }},
       {"view_buffer", "buffers", [](CraftedFile& f) { f.root["bufferViews"][0]["buffer"] = 1; }},
-      {"attribute", "accessors", [](CraftedFile& f) { f.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 99; }},
+      {"attribute", "accessors",
+       [](CraftedFile& f) { f.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 99; }},
       {"indices", "accessors", [](CraftedFile& f) { f.root["meshes"][0]["primitives"][0]["indices"] = 77; }},
       {"indices_text", "abc", [](CraftedFile& f) { f.root["meshes"][0]["primitives"][0]["indices"] = "abc"; }},
       {"material", "materials", [](CraftedFile& f) { f.root["meshes"][0]["primitives"][0]["material"] = 3; }},
@@ -231,64 +233,77 @@ std::vector<Recipe> index_recipes() {
       {"sampler", "samplers", [](CraftedFile& f) { f.root["textures"][0]["sampler"] = 5; }},
       {"mesh", "meshes", [](CraftedFile& f) { f.root["nodes"][0]["mesh"] = 12345; }},
       {"camera", "cameras", [](CraftedFile& f) { f.root["nodes"][1]["camera"] = 1; }},
-      {"light", "lights",
-       [](CraftedFile& f) { f.root["nodes"][2]["extensions"]["KHR_lights_punctual"]["light"] = 8; }},
+      {"light", "lights", [](CraftedFile& f) { f.root["nodes"][2]["extensions"]["KHR_lights_punctual"]["light"] = 8; }},
       {"scene", "scenes", [](CraftedFile& f) { f.root["scene"] = 1; }},
-      {"scene_node", "nodes", [](CraftedFile& f) { f.root["scenes"][0]["nodes"] = {0, 9}; }},
+      {"scene_node", "nodes",
+       [](CraftedFile& f) {
+         f.root["scenes"][0]["nodes"] = {0, 9};
+       }},
       {"child", "nodes", [](CraftedFile& f) { f.root["nodes"][0]["children"] = {44}; }},
       {"image_view", "bufferViews", [](CraftedFile& f) { f.root["images"][0]["bufferView"] = 44; }},
-      {"vertex_number", "indices)[1] is 3", [](CraftedFile& f) { f.bin[f.root["bufferViews"][3]["byteOffset"].get<std::size_t>() + 2] = 3; }},
+      {"vertex_number", "indices)[1] is 3",
+       [](CraftedFile& f) { f.bin[f.root["bufferViews"][3]["byteOffset"].get<std::size_t>() + 2] = 3; }},
   };
 }
 
 std::vector<Recipe> range_recipes() {
   return {
-      {"count", "needs 12000000 bytes", [](CraftedFile& f) {
-         for (int i = 0; i < 3; ++i) f.root["accessors"][i]["count"] = 1000000;
+      {"count", "needs 12000000 bytes",
+       [](CraftedFile& f) {
+         for (std::size_t i = 0; i < 3; ++i) f.root["accessors"][i]["count"] = 1000000;
        }},
       {"count_zero", "count is 0", [](CraftedFile& f) { f.root["accessors"][0]["count"] = 0; }},
       {"count_huge", "count is", [](CraftedFile& f) { f.root["accessors"][0]["count"] = 1e300; }},
       {"count_half", "count is 2.5", [](CraftedFile& f) { f.root["accessors"][0]["count"] = 2.5; }},
       {"count_wraps", "needs 8589934590 bytes", [](CraftedFile& f) { f.root["accessors"][3]["count"] = 4294967295u; }},
       {"accessor_offset", "bytes", [](CraftedFile& f) { f.root["accessors"][0]["byteOffset"] = 1000000; }},
-      {"accessor_negative_offset", "byteOffset is -4", [](CraftedFile& f) { f.root["accessors"][0]["byteOffset"] = -4; }},
+      {"accessor_negative_offset", "byteOffset is -4",
+       [](CraftedFile& f) { f.root["accessors"][0]["byteOffset"] = -4; }},
       {"accessor_odd_offset", "aligned", [](CraftedFile& f) { f.root["accessors"][3]["byteOffset"] = 1; }},
       {"view_length", "length of its buffer", [](CraftedFile& f) { f.root["bufferViews"][0]["byteLength"] = 1 << 30; }},
-      {"view_offset_wraps", "byteOffset", [](CraftedFile& f) { f.root["bufferViews"][0]["byteOffset"] = 18446744073709551600u; }},
+      {"view_offset_wraps", "byteOffset",
+       [](CraftedFile& f) { f.root["bufferViews"][0]["byteOffset"] = 18446744073709551600u; }},
       {"stride_small", "byteStride", [](CraftedFile& f) { f.root["bufferViews"][0]["byteStride"] = 8; }},
       {"stride_odd", "multiple of 4", [](CraftedFile& f) { f.root["bufferViews"][0]["byteStride"] = 13; }},
       {"stride_huge", "byteStride", [](CraftedFile& f) { f.root["bufferViews"][0]["byteStride"] = 1000; }},
       {"stride_past_end", "bytes", [](CraftedFile& f) { f.root["bufferViews"][0]["byteStride"] = 252; }},
       {"stride_of_indices", "byteStride", [](CraftedFile& f) { f.root["bufferViews"][3]["byteStride"] = 4; }},
       {"component_type", "component type", [](CraftedFile& f) { f.root["accessors"][0]["componentType"] = 5124; }},
-      {"component_type_unknown", "componentType is 1", [](CraftedFile& f) { f.root["accessors"][0]["componentType"] = 1; }},
+      {"component_type_unknown", "componentType is 1",
+       [](CraftedFile& f) { f.root["accessors"][0]["componentType"] = 1; }},
       {"position_type", "VEC3", [](CraftedFile& f) { f.root["accessors"][0]["type"] = "VEC2"; }},
       {"unknown_type", "VEC9", [](CraftedFile& f) { f.root["accessors"][0]["type"] = "VEC9"; }},
       {"float_indices", "SCALAR", [](CraftedFile& f) { f.root["accessors"][3]["componentType"] = 5126; }},
       {"counts_differ", "expected 3", [](CraftedFile& f) { f.root["accessors"][1]["count"] = 2; }},
       {"two_corners", "multiple of three", [](CraftedFile& f) { f.root["accessors"][3]["count"] = 2; }},
       {"mode", "mode is 7", [](CraftedFile& f) { f.root["meshes"][0]["primitives"][0]["mode"] = 7; }},
-      {"zeros_without_end", "memory limit", [](CraftedFile& f) {
+      {"zeros_without_end", "memory limit",
+       [](CraftedFile& f) {
          f.root["accessors"][0] = {{"componentType", 5126}, {"type", "VEC3"}, {"count", 4200000000u}};
          f.root["meshes"][0]["primitives"][0] = {{"attributes", {{"POSITION", 0}}}};
        }},
-      {"many_zeros", "no bufferView", [](CraftedFile& f) {
+      {"many_zeros", "no bufferView",
+       [](CraftedFile& f) {
          f.root["accessors"][0] = {{"componentType", 5126}, {"type", "VEC3"}, {"count", 18000000}};
          f.root["meshes"][0]["primitives"][0] = {{"attributes", {{"POSITION", 0}}}};
        }},
-      {"sparse_index", "increasing indices below 3", [](CraftedFile& f) {
-         f.root["accessors"][0]["sparse"] = {{"count", 2},
-                                             {"indices", {{"bufferView", 3}, {"byteOffset", 2}, {"componentType", 5123}}},
-                                             {"values", {{"bufferView", 0}}}};
+      {"sparse_index", "increasing indices below 3",
+       [](CraftedFile& f) {
+         f.root["accessors"][0]["sparse"] = {
+             {"count", 2},
+             {"indices", {{"bufferView", 3}, {"byteOffset", 2}, {"componentType", 5123}}},
+             {"values", {{"bufferView", 0}}}};
          f.bin[f.root["bufferViews"][3]["byteOffset"].get<std::size_t>() + 4] = 200;
          f.root["meshes"][0]["primitives"][0].erase("indices");
        }},
-      {"sparse_values", "sparse.values", [](CraftedFile& f) {
+      {"sparse_values", "sparse.values",
+       [](CraftedFile& f) {
          f.root["accessors"][0]["sparse"] = {{"count", 3},
                                              {"indices", {{"bufferView", 3}, {"componentType", 5123}}},
                                              {"values", {{"bufferView", 0}, {"byteOffset", 12}}}};
        }},
-      {"sparse_view", "bufferViews", [](CraftedFile& f) {
+      {"sparse_view", "bufferViews",
+       [](CraftedFile& f) {
          f.root["accessors"][0]["sparse"] = {
              {"count", 1}, {"indices", {{"bufferView", 50}, {"componentType", 5123}}}, {"values", {{"bufferView", 0}}}};
        }},
@@ -303,30 +318,48 @@ std::vector<Recipe> value_recipes() {
       {"far_position", "expected vertices within", [](CraftedFile& f) { set_float(f, 0, 1e30f); }},
       {"nan_normal", "accessors[1]", [=](CraftedFile& f) { set_float(f, 40, nan); }},
       {"infinite_uv", "accessors[2]", [=](CraftedFile& f) { set_float(f, 76, inf); }},
-      {"scale_overflows", "nodes[0]", [](CraftedFile& f) { f.root["nodes"][0]["scale"] = {1e300, 1, 1}; }},
-      {"far_node", "expected vertices within", [](CraftedFile& f) { f.root["nodes"][0]["translation"] = {1e20, 0, 0}; }},
-      {"zero_rotation", "unit quaternion", [](CraftedFile& f) { f.root["nodes"][0]["rotation"] = {0, 0, 0, 0}; }},
-      {"short_matrix", "16 numbers", [](CraftedFile& f) { f.root["nodes"][0]["matrix"] = {1, 0, 0, 0}; }},
+      {"scale_overflows", "nodes[0]",
+       [](CraftedFile& f) {
+         f.root["nodes"][0]["scale"] = {1e300, 1, 1};
+       }},
+      {"far_node", "expected vertices within",
+       [](CraftedFile& f) {
+         f.root["nodes"][0]["translation"] = {1e20, 0, 0};
+       }},
+      {"zero_rotation", "unit quaternion",
+       [](CraftedFile& f) {
+         f.root["nodes"][0]["rotation"] = {0, 0, 0, 0};
+       }},
+      {"short_matrix", "16 numbers",
+       [](CraftedFile& f) {
+         f.root["nodes"][0]["matrix"] = {1, 0, 0, 0};
+       }},
       {"projective_matrix", "0 0 0 1",
        [](CraftedFile& f) { f.root["nodes"][0]["matrix"] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }},
-      {"node_in_itself", "its own ancestor", [](CraftedFile& f) {
+      {"node_in_itself", "its own ancestor",
+       [](CraftedFile& f) {
          f.root["nodes"][0]["children"] = {1};
          f.root["nodes"][1]["children"] = {0};
          f.root["scenes"][0]["nodes"] = {2, 3};
        }},
-      {"two_parents", "one parent", [](CraftedFile& f) {
+      {"two_parents", "one parent",
+       [](CraftedFile& f) {
          f.root["nodes"][1]["children"] = {0};
          f.root["nodes"][2]["children"] = {0};
        }},
       {"root_that_is_a_child", "root nodes", [](CraftedFile& f) { f.root["nodes"][1]["children"] = {0}; }},
-      {"no_scenes", "no scene", [](CraftedFile& f) {
+      {"no_scenes", "no scene",
+       [](CraftedFile& f) {
          f.root.erase("scenes");
          f.root.erase("scene");
        }},
       {"no_asset", "asset", [](CraftedFile& f) { f.root.erase("asset"); }},
       {"version_1", "version 1.0", [](CraftedFile& f) { f.root["asset"]["version"] = "1.0"; }},
       {"required_extensions", "KHR_draco_mesh_compression, EXT_meshopt_compression",
-       [](CraftedFile& f) { f.root["extensionsRequired"] = {"KHR_draco_mesh_compression", "KHR_materials_unlit", "EXT_meshopt_compression"}; }},
+       [](CraftedFile& f) {
+         f.root["extensionsRequired"] = {"KHR_draco_mesh_compression", "KHR_materials_unlit",
+                                         "EXT_meshopt_compression"};
+       }},
       {"yfov", "yfov", [](CraftedFile& f) { f.root["cameras"][0]["perspective"]["yfov"] = 0; }},
       {"znear", "znear", [](CraftedFile& f) { f.root["cameras"][0]["perspective"]["znear"] = -1; }},
       {"camera_type", "perspective or orthographic", [](CraftedFile& f) { f.root["cameras"][0]["type"] = "fisheye"; }},
@@ -335,11 +368,20 @@ std::vector<Recipe> value_recipes() {
       {"min_filter", "minFilter", [](CraftedFile& f) { f.root["samplers"][0]["minFilter"] = 9990; }},
       {"water_ior", "1/3 to 3", [](CraftedFile& f) { f.root["nodes"][3]["extras"]["water"]["ior"] = 3.01; }},
       {"water_ior_text", "1/3 to 3", [](CraftedFile& f) { f.root["nodes"][3]["extras"]["water_ior"] = "1.33"; }},
-      {"water_absorption", "0 or more", [](CraftedFile& f) { f.root["nodes"][3]["extras"]["water"]["absorption"] = {1, -1, 1}; }},
-      {"water_size", "[x, z]", [](CraftedFile& f) { f.root["nodes"][3]["extras"]["water"]["size"] = {4, 0}; }},
+      {"water_absorption", "0 or more",
+       [](CraftedFile& f) {
+         f.root["nodes"][3]["extras"]["water"]["absorption"] = {1, -1, 1};
+       }},
+      {"water_size", "[x, z]",
+       [](CraftedFile& f) {
+         f.root["nodes"][3]["extras"]["water"]["size"] = {4, 0};
+       }},
       {"water_depth", "more than 0", [](CraftedFile& f) { f.root["nodes"][3]["extras"]["water"]["depth"] = -1; }},
       {"water_key", "iro", [](CraftedFile& f) { f.root["nodes"][3]["extras"]["water"]["iro"] = 1.3; }},
-      {"water_surface", "expected flat", [](CraftedFile& f) { f.root["nodes"][3]["extras"]["water"]["surface"] = {{"type", "lava"}}; }},
+      {"water_surface", "expected flat",
+       [](CraftedFile& f) {
+         f.root["nodes"][3]["extras"]["water"]["surface"] = {{"type", "lava"}};
+       }},
       {"water_without_outline", "planar mesh", [](CraftedFile& f) { f.root["nodes"][3]["extras"]["water"] = true; }},
       {"background", "background", [](CraftedFile& f) { f.root["scenes"][0]["extras"]["background"] = "night"; }},
   };
@@ -348,7 +390,8 @@ std::vector<Recipe> value_recipes() {
 std::vector<Recipe> outside_recipes() {
   return {
       {"missing_bin", "is missing", [](CraftedFile& f) { f.root["buffers"][0]["uri"] = "nowhere.bin"; }},
-      {"bin_above", "without '..'", [](CraftedFile& f) { f.root["buffers"][0]["uri"] = "../../../../../../etc/passwd"; }},
+      {"bin_above", "without '..'",
+       [](CraftedFile& f) { f.root["buffers"][0]["uri"] = "../../../../../../etc/passwd"; }},
       {"bin_above_encoded", "without '..'", [](CraftedFile& f) { f.root["buffers"][0]["uri"] = "%2e%2e/x.bin"; }},
       {"bin_absolute", "relative path", [](CraftedFile& f) { f.root["buffers"][0]["uri"] = "/etc/passwd"; }},
       {"bin_by_scheme", "data URI", [](CraftedFile& f) { f.root["buffers"][0]["uri"] = "file:///etc/passwd"; }},
@@ -356,15 +399,38 @@ std::vector<Recipe> outside_recipes() {
       {"bin_folder", "no regular file", [](CraftedFile& f) { f.root["buffers"][0]["uri"] = "folder"; }},
       {"bin_short", "has 4 bytes", [](CraftedFile& f) { f.root["buffers"][0]["uri"] = "short.bin"; }},
       {"data_uri_type", "data URI", [](CraftedFile& f) { f.root["buffers"][0]["uri"] = "data:text/html;base64,AAAA"; }},
-      {"data_uri_digits", "base64", [](CraftedFile& f) { f.root["buffers"][0]["uri"] = "data:application/octet-stream;base64,AA*A"; }},
-      {"data_uri_short", "byteLength", [](CraftedFile& f) { f.root["buffers"][0]["uri"] = "data:application/octet-stream;base64,AAAA"; }},
-      {"missing_image", "brick.png", [](CraftedFile& f) { f.root["images"][0] = {{"uri", "brick.png"}}; }},
-      {"image_of_text", "PNG, JPEG", [](CraftedFile& f) { f.root["images"][0] = {{"uri", "short.bin"}}; }},
-      {"image_cut", "cut short", [](CraftedFile& f) { f.root["images"][0] = {{"uri", "cut.png"}}; }},
-      {"image_damaged", "is damaged", [](CraftedFile& f) { f.root["images"][0] = {{"uri", "damaged.png"}}; }},
-      {"image_too_large", "100000 x 100000", [](CraftedFile& f) { f.root["images"][0] = {{"uri", "large.png"}}; }},
-      {"image_empty", "0 x 0", [](CraftedFile& f) { f.root["images"][0] = {{"uri", "empty.png"}}; }},
-      {"image_without_data", "neither", [](CraftedFile& f) { f.root["images"][0] = {{"name", "x"}}; }},
+      {"data_uri_digits", "base64",
+       [](CraftedFile& f) { f.root["buffers"][0]["uri"] = "data:application/octet-stream;base64,AA*A"; }},
+      {"data_uri_short", "byteLength",
+       [](CraftedFile& f) { f.root["buffers"][0]["uri"] = "data:application/octet-stream;base64,AAAA"; }},
+      {"missing_image", "brick.png",
+       [](CraftedFile& f) {
+         f.root["images"][0] = {{"uri", "brick.png"}};
+       }},
+      {"image_of_text", "PNG, JPEG",
+       [](CraftedFile& f) {
+         f.root["images"][0] = {{"uri", "short.bin"}};
+       }},
+      {"image_cut", "cut short",
+       [](CraftedFile& f) {
+         f.root["images"][0] = {{"uri", "cut.png"}};
+       }},
+      {"image_damaged", "is damaged",
+       [](CraftedFile& f) {
+         f.root["images"][0] = {{"uri", "damaged.png"}};
+       }},
+      {"image_too_large", "100000 x 100000",
+       [](CraftedFile& f) {
+         f.root["images"][0] = {{"uri", "large.png"}};
+       }},
+      {"image_empty", "0 x 0",
+       [](CraftedFile& f) {
+         f.root["images"][0] = {{"uri", "empty.png"}};
+       }},
+      {"image_without_data", "neither",
+       [](CraftedFile& f) {
+         f.root["images"][0] = {{"name", "x"}};
+       }},
   };
 }
 
@@ -405,7 +471,8 @@ void write_raw_files(const TemporaryFolder& folder, std::vector<BadFile>& files)
   add_text("number.gltf", R"({"asset":{"version":"2.0"},"scene":1e999})", "JSON");
   add_text("utf8.gltf", "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"name\":\"\xff\"}]}", "JSON");
   add_text("deep.gltf", std::string(200000, '[') + "{", "nested deeper");
-  add_text("deep_extras.gltf", R"({"asset":{"version":"2.0"},"extras":)" + std::string(200000, '[') + std::string(200000, ']') + "}",
+  add_text("deep_extras.gltf",
+           R"({"asset":{"version":"2.0"},"extras":)" + std::string(200000, '[') + std::string(200000, ']') + "}",
            "nested deeper");
   add("jpeg.glb", {0xFF, 0xD8, 0xFF, 0xE0, 0, 16}, "neither JSON nor a .glb");
 }

@@ -143,7 +143,8 @@ MeshPrimitive triangle(float size) {
 // Every field of every structure away from its default somewhere.
 Scene full_scene() {
   Scene scene;
-  const std::uint8_t texels[] = {255, 0, 7, 0, 1, 2, 3, 4, 9, 99, 199, 255, 128, 127, 126, 125, 200, 100, 50, 1, 0, 0, 0, 0};
+  const std::uint8_t texels[] = {255, 0,   7,   0,   1,   2,   3,  4, 9, 99, 199, 255,
+                                 128, 127, 126, 125, 200, 100, 50, 1, 0, 0,  0,   0};
   const float radiance[] = {0.1f, 1e6f, 0, 1, 3.3f, 2e-20f, 0.7f, 0.25f};
   scene.materials.textures = {make_texture_rgba8(3, 2, texels, true), make_texture_rgba8(2, 3, texels, false),
                               make_texture_float(2, 1, radiance)};
@@ -244,7 +245,8 @@ TEST_CASE("export: children keep their place below turned, scaled, mirrored pare
   scene.nodes.resize(5);
   // Quarter turn and mirror; a turn by 30 degrees; scale 0.1.
   scene.nodes[0].world_from_local = {{{0, 0, 2, 1}, {0, -2, 0, 0.3f}, {2, 0, 0, -7}, {0, 0, 0, 1}}};
-  scene.nodes[1].world_from_local = {{{0.8660254f, -0.5f, 0, 11}, {0.5f, 0.8660254f, 0, 0}, {0, 0, 1, 0.1f}, {0, 0, 0, 1}}};
+  scene.nodes[1].world_from_local = {
+      {{0.8660254f, -0.5f, 0, 11}, {0.5f, 0.8660254f, 0, 0}, {0, 0, 1, 0.1f}, {0, 0, 0, 1}}};
   scene.nodes[2].world_from_local = {{{0.1f, 0, 0, 5}, {0, 0.1f, 0, 6}, {0, 0, 0.1f, 7}, {0, 0, 0, 1}}};
   scene.nodes[3].world_from_local = {{{1, 2, 3, 0}, {0, 1, 4, 0}, {5, 6, 0, 0}, {0, 0, 0, 1}}};
   const std::int32_t parents[] = {kNoIndex, 0, 1, 1, kNoIndex};
@@ -303,7 +305,8 @@ TEST_CASE("export: a file that cannot be written leaves nothing and changes noth
     std::FILE* full = std::fopen("/dev/full", "wb");
     REQUIRE(full != nullptr);
     std::setvbuf(full, nullptr, _IONBF, 0);
-    CHECK_THROWS_WITH(write_glb(full_scene(), full, "full.glb"), Catch::Matchers::Contains("full.glb: cannot be written"));
+    CHECK_THROWS_WITH(write_glb(full_scene(), full, "full.glb"),
+                      Catch::Matchers::Contains("full.glb: cannot be written"));
     std::fclose(full);
   }
 }

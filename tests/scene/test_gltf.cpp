@@ -53,7 +53,8 @@ TEST_CASE("gltf: indices of every width, strips and fans", "[gltf]") {
   CHECK(loaded_indices<std::uint16_t>({0, 1, 2, 2, 3, 0}, 5123, 4) == list);
   CHECK(loaded_indices<std::uint32_t>({0, 1, 2, 2, 3, 0}, 5125, 4) == list);
   // The specification's own formulas, written out.
-  CHECK(loaded_indices<std::uint8_t>({3, 0, 2, 1, 3}, 5121, 5) == std::vector<std::uint32_t>{3, 0, 2, 0, 1, 2, 2, 1, 3});
+  CHECK(loaded_indices<std::uint8_t>({3, 0, 2, 1, 3}, 5121, 5) ==
+        std::vector<std::uint32_t>{3, 0, 2, 0, 1, 2, 2, 1, 3});
   CHECK(loaded_indices<std::uint8_t>({0, 1, 2, 3}, 5121, 6) == std::vector<std::uint32_t>{1, 2, 0, 2, 3, 0});
 }
 
@@ -98,7 +99,8 @@ TEST_CASE("gltf: normalised integers scale as the specification says", "[gltf]")
   const std::uint8_t colors[] = {255, 0, 51, 0, 128, 1, 254, 0, 3, 2, 1, 0};
   const std::size_t color = file.add_accessor(colors, sizeof colors, 5121, "VEC3", 3, true);
   file.root["bufferViews"].back()["byteStride"] = 4;
-  file.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normal}, {"TEXCOORD_0", uv}, {"COLOR_0", color}}}});
+  file.add_mesh(
+      {{"attributes", {{"POSITION", positions}, {"NORMAL", normal}, {"TEXCOORD_0", uv}, {"COLOR_0", color}}}});
   const MeshPrimitive mesh = load(file).meshes[0].primitives[0];
   CHECK(equal(mesh.normals[0], {0, 0, 1}));
   CHECK(equal(mesh.normals[1], {-1, 0, 0}));  // -128 is clamped to -1
@@ -120,8 +122,9 @@ TEST_CASE("gltf: quantised positions, interleaved", "[gltf]") {
   };
   const Vertex vertices[] = {{-300, 5, 0, 99, 0.25f, 0.5f}, {300, 5, 7, 99, 1, 2}, {0, 32767, 0, 99, 3, 4}};
   const std::size_t view = file.add_view(vertices, sizeof vertices, sizeof(Vertex));
-  file.root["accessors"] = {{{"bufferView", view}, {"componentType", 5122}, {"type", "VEC3"}, {"count", 3}},
-                            {{"bufferView", view}, {"byteOffset", 8}, {"componentType", 5126}, {"type", "VEC2"}, {"count", 3}}};
+  file.root["accessors"] = {
+      {{"bufferView", view}, {"componentType", 5122}, {"type", "VEC3"}, {"count", 3}},
+      {{"bufferView", view}, {"byteOffset", 8}, {"componentType", 5126}, {"type", "VEC2"}, {"count", 3}}};
   file.root["extensionsRequired"] = {"KHR_mesh_quantization"};
   file.add_mesh({{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}}});
   const MeshPrimitive mesh = load(file).meshes[0].primitives[0];
@@ -153,11 +156,12 @@ TEST_CASE("gltf: sparse accessors, over data and over zeros", "[gltf]") {
 TEST_CASE("gltf: nodes come depth first, their transforms multiplied", "[gltf]") {
   CraftedFile file = empty_file();
   const double h = std::sqrt(0.5);
-  file.root["nodes"] = {{{"name", "c"}, {"translation", {1, 0, 0}}},
-                        {{"name", "root"}, {"translation", {10, 20, 30}}, {"rotation", {0, h, 0, h}}, {"children", {3, 0}}},
-                        {{"name", "second"}, {"matrix", {0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 5, 6, 7, 1}}},
-                        {{"name", "a"}, {"scale", {2, 3, -4}}, {"children", {4}}},
-                        {{"name", "b"}, {"translation", {1, 1, 1}}, {"rotation", {0, 0, 3, 0}}}};
+  file.root["nodes"] = {
+      {{"name", "c"}, {"translation", {1, 0, 0}}},
+      {{"name", "root"}, {"translation", {10, 20, 30}}, {"rotation", {0, h, 0, h}}, {"children", {3, 0}}},
+      {{"name", "second"}, {"matrix", {0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 5, 6, 7, 1}}},
+      {{"name", "a"}, {"scale", {2, 3, -4}}, {"children", {4}}},
+      {{"name", "b"}, {"translation", {1, 1, 1}}, {"rotation", {0, 0, 3, 0}}}};
   file.root["scenes"][0]["nodes"] = {1, 2};
   const Scene scene = load(file);
   std::string order;
@@ -193,13 +197,17 @@ TEST_CASE("gltf: the default scene, else the first", "[gltf]") {
 
 TEST_CASE("gltf: cameras and lights", "[gltf]") {
   CraftedFile file = empty_file();
-  file.root["cameras"] = {{{"type", "perspective"}, {"name", "lens"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.25}}}},
-                          {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 3.0}, {"znear", 0}, {"zfar", 10}}}}};
+  file.root["cameras"] = {
+      {{"type", "perspective"}, {"name", "lens"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.25}}}},
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 3.0}, {"znear", 0}, {"zfar", 10}}}}};
   file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
       {{"type", "point"}}, {{"type", "directional"}, {"intensity", 3}, {"color", {1, 0.5, 0.25}}}};
   const json names_light_0 = {{"KHR_lights_punctual", {{"light", 0}}}};
   const json names_light_1 = {{"KHR_lights_punctual", {{"light", 1}}}};
-  file.root["nodes"] = {{{"camera", 0}}, {{"camera", 1}, {"name", "top"}}, {{"extensions", names_light_0}}, {{"extensions", names_light_1}}};
+  file.root["nodes"] = {{{"camera", 0}},
+                        {{"camera", 1}, {"name", "top"}},
+                        {{"extensions", names_light_0}},
+                        {{"extensions", names_light_1}}};
   file.root["scenes"][0]["nodes"] = {0, 1, 2, 3};
   const Scene scene = load(file);
   REQUIRE(scene.cameras.size() == 2);
@@ -232,7 +240,10 @@ TEST_CASE("gltf: materials, samplers and what is only warned of", "[gltf]") {
                                {"alphaMode", "MASK"},
                                {"alphaCutoff", 0.25},
                                {"doubleSided", true},
-                               {"extensions", {{"KHR_materials_unlit", json::object()}, {"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}, {"EXT_glitter", json::object()}}}};
+                               {"extensions",
+                                {{"KHR_materials_unlit", json::object()},
+                                 {"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}},
+                                 {"EXT_glitter", json::object()}}}};
   file.root["extensionsUsed"] = {"EXT_glitter", "KHR_materials_unlit"};
   const Scene scene = load(file);
   REQUIRE(scene.materials.materials.size() == 1);
@@ -294,7 +305,13 @@ TEST_CASE("gltf: water from an object, from flat keys, from a check box", "[gltf
     return load(file);
   };
   SECTION("object") {
-    const Scene scene = water_of({{"water", {{"size", {4, 3}}, {"depth", 2}, {"ior", 1.5}, {"absorption", {1, 2, 3}}, {"surface", {{"type", "flat"}}}, {"geometry", "displaced"}}}});
+    const Scene scene = water_of({{"water",
+                                   {{"size", {4, 3}},
+                                    {"depth", 2},
+                                    {"ior", 1.5},
+                                    {"absorption", {1, 2, 3}},
+                                    {"surface", {{"type", "flat"}}},
+                                    {"geometry", "displaced"}}}});
     REQUIRE(scene.waters.size() == 1);
     CHECK(scene.nodes[3].water == 0);
     const WaterSpec& water = scene.waters[0];

@@ -49,7 +49,8 @@ TEST_CASE("gltf: a file cut at any byte is an error", "[gltf]") {
   const TemporaryFolder folder;
   const std::vector<std::uint8_t> glb = good_file().glb();
   for (std::size_t size = 0; size < glb.size(); size += 7) {
-    write_file(folder / "cut.glb", std::vector<std::uint8_t>(glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)));
+    write_file(folder / "cut.glb",
+               std::vector<std::uint8_t>(glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)));
     CHECK(is_one_line_about(error_of(folder / "cut.glb"), folder / "cut.glb"));
   }
 }

@@ -15,8 +15,8 @@ Bytes decoded(const Bytes& file) { return texture_bytes(decode_texture(file, "pi
 
 // A Radiance file, rows not compressed: red, green, blue mantissas and a common exponent.
 Bytes radiance_file(int width, int height, const Bytes& rgbe) {
-  const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " +
-                             std::to_string(width) + "\n";
+  const std::string header =
+      "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " + std::to_string(width) + "\n";
   Bytes file(header.begin(), header.end());
   file.insert(file.end(), rgbe.begin(), rgbe.end());
   return file;
@@ -60,7 +60,8 @@ TEST_CASE("images: Radiance files are linear floats", "[images]") {
 }
 
 TEST_CASE("images: encoding loses nothing and repeats itself", "[images]") {
-  const std::uint8_t texels[] = {255, 0, 7, 0, 1, 2, 3, 4, 9, 99, 199, 255, 128, 127, 126, 125, 200, 100, 50, 1, 0, 0, 0, 0};
+  const std::uint8_t texels[] = {255, 0,   7,   0,   1,   2,   3,  4, 9, 99, 199, 255,
+                                 128, 127, 126, 125, 200, 100, 50, 1, 0, 0,  0,   0};
   const Texture texture = make_texture_rgba8(3, 2, texels, true);
   const Bytes file = encode_texture(texture, "t");
   CHECK(file == encode_texture(texture, "t"));
@@ -95,7 +96,8 @@ TEST_CASE("images: damaged and foreign data are errors", "[images]") {
   }
   for (const char* text : {"GIF89a______", "#?RADIANCE\n", "v/1\x01____________", "\xFF\xD8\xFF\xE0"}) {
     const std::string bytes = text;
-    CHECK_THROWS_AS(decode_texture({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, "p", true), Error);
+    CHECK_THROWS_AS(decode_texture({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, "p", true),
+                    Error);
   }
   CHECK_THROWS_AS(load_texture("/", true), Error);
   CHECK_THROWS_AS(load_texture("/no/such/picture.png", true), Error);
