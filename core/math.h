@@ -1,9 +1,9 @@
 // Elementary functions of our own: the same bits for float and WideF, on every instruction set and compiler.
 //
 // Only + - * / sqrt, compares, selects and integer operations; polynomials are minimax fits with float coefficients.
-// None returns a NaN, whatever comes in; where C's would, the doc comment says what comes instead. Errors are in units in
-// the last place (ULP) of the result against the real function, and tests/core/test_math.cpp pins each over the whole
-// range of floats, denormals and known worst cases included.
+// None returns a NaN, whatever comes in; where C's would, the doc comment says what comes instead. Errors are in units
+// in the last place (ULP) of the result against the real function, and tests/core/test_math.cpp pins each over the
+// whole range of floats, denormals and known worst cases included.
 #pragma once
 
 #include "core/math_reduce.h"
@@ -23,8 +23,8 @@ SHOAL_INLINE F upper_half(F v) {
   return as_float(as_int(v) & IntOf<F>(-4096));
 }
 
-// v, or `instead` where v is a NaN. By its bits: where a comparison feeds a clamp, Clang makes both one fmaxnm on AArch64,
-// and that lets signaling NaNs through.
+// v, or `instead` where v is a NaN. By its bits: where a comparison feeds a clamp, Clang makes both one fmaxnm on
+// AArch64, and that lets signaling NaNs through.
 template <class F>
 SHOAL_INLINE F unless_nan(F v, F instead) {
   return select((as_int(v) & IntOf<F>(0x7FFFFFFF)) > IntOf<F>(0x7F800000), instead, v);
@@ -62,8 +62,8 @@ SHOAL_INLINE F exp2_of(IntOf<F> k, F f) {
 
 // log2 of a positive finite x as hi + lo, off by 2^-34 of it at most (2^-34 absolute once |log2 x| >= 1/2).
 //
-// x = 2^e m, m within sqrt(1/2)..sqrt(2), s = (m - 1)/(m + 1): log2 m = 2/(3 ln 2) s (3 + s^2 + s^4 R(s^2)), with s and the
-// bracket carried in two floats. Fit error of the bracket 2^-43.
+// x = 2^e m, m within sqrt(1/2)..sqrt(2), s = (m - 1)/(m + 1): log2 m = 2/(3 ln 2) s (3 + s^2 + s^4 R(s^2)), with s and
+// the bracket carried in two floats. Fit error of the bracket 2^-43.
 template <class F>
 SHOAL_INLINE void log2_split(F x, F& hi, F& lo) {
   using I = IntOf<F>;
@@ -177,8 +177,7 @@ SHOAL_INLINE F det_atan2(F y, F x) {
   small = select(infinite, F(1.0f), small);
   large = select(large == F(0.0f), F(1.0f), large);
   // Away from overflow of the sum and from denormals, exactly.
-  const F scale =
-      select(large > F(0x1p+126f), F(0.25f), select(large < F(0x1p-100f), F(0x1p+64f), F(1.0f)));
+  const F scale = select(large > F(0x1p+126f), F(0.25f), select(large < F(0x1p-100f), F(0x1p+64f), F(1.0f)));
   large = large * scale;
   small = small * scale;
   // Within an eighth of a turn: atan(small / large), above pi/8 as pi/4 + atan((small - large) / (small + large)).

@@ -32,7 +32,8 @@ SHOAL_INLINE void reduce_exactly(float x, float& hi, float& lo, std::int32_t& qu
   const std::uint32_t m = (bits & 0x7FFFFFu) | 0x800000u;
   // Bit p of kTwoOverPi weighs 2^(31 - p) in 2/pi, so weight 2 in 2^q 2/pi is bit q + 30.
   const int first = exponent - 150 + 30;
-  const std::uint64_t w0 = two_over_pi_word(first), w1 = two_over_pi_word(first + 32), w2 = two_over_pi_word(first + 64);
+  const std::uint64_t w0 = two_over_pi_word(first), w1 = two_over_pi_word(first + 32),
+                      w2 = two_over_pi_word(first + 64);
   const std::uint64_t turns = ((m * w0) << 32) + m * w1 + ((m * w2) >> 32);
   const std::uint64_t nearest = (turns + (std::uint64_t{1} << 61)) >> 62;
   const std::int64_t rest = static_cast<std::int64_t>(turns - (nearest << 62));
@@ -43,8 +44,8 @@ SHOAL_INLINE void reduce_exactly(float x, float& hi, float& lo, std::int32_t& qu
 }
 
 // Lane by lane for the lanes of `which`. Out of line: it is rare, and every sine would carry a copy.
-__attribute__((noinline, cold)) inline void reduce_lanes_exactly(const float* x, std::uint32_t which, float* hi, float* lo,
-                                                                 std::int32_t* quadrant) {
+__attribute__((noinline, cold)) inline void reduce_lanes_exactly(const float* x, std::uint32_t which, float* hi,
+                                                                 float* lo, std::int32_t* quadrant) {
   for (int i = 0; i < 16; ++i)
     if (((which >> i) & 1u) != 0) reduce_exactly(x[i], hi[i], lo[i], quadrant[i]);
 }
@@ -69,9 +70,9 @@ SHOAL_INLINE void reduce_where(WideM which, WideF x, WideF& hi, WideF& lo, WideI
 
 // x = quadrant pi/2 + hi + lo with |hi + lo| <= pi/4 (1 + 2^-20), for x >= 0; a NaN or infinity is taken as 0.
 //
-// Up to 12000 the quadrant has 13 bits, so its products with the first three 11-bit pieces of pi/2 are exact, and so are
-// the first two differences; the rest is off by 2^-49 at most. Where that is not small beside the result, and for larger
-// x, integers take over. Source: Cody and Waite, Software Manual for the Elementary Functions, 1980.
+// Up to 12000 the quadrant has 13 bits, so its products with the first three 11-bit pieces of pi/2 are exact, and so
+// are the first two differences; the rest is off by 2^-49 at most. Where that is not small beside the result, and for
+// larger x, integers take over. Source: Cody and Waite, Software Manual for the Elementary Functions, 1980.
 template <class F>
 SHOAL_INLINE void reduce_by_half_pi(F x, F& hi, F& lo, IntOf<F>& quadrant) {
   const MaskOf<F> large = !(x <= F(12000.0f));

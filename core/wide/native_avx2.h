@@ -20,9 +20,7 @@ namespace shoal::inline SHOAL_ISA_NS::wide_detail {
 SHOAL_INLINE VF f_set1(float s) { return _mm256_set1_ps(s); }
 SHOAL_INLINE VI i_set1(std::int32_t s) { return (VI)_mm256_set1_epi32(s); }
 SHOAL_INLINE VF f_load(const float* p) { return _mm256_loadu_ps(p); }
-SHOAL_INLINE VI i_load(const std::int32_t* p) {
-  return (VI)_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
-}
+SHOAL_INLINE VI i_load(const std::int32_t* p) { return (VI)_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)); }
 SHOAL_INLINE void f_store(float* p, VF v) { _mm256_storeu_ps(p, v); }
 SHOAL_INLINE void i_store(std::int32_t* p, VI v) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), (__m256i)v); }
 

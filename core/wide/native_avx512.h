@@ -56,7 +56,9 @@ SHOAL_INLINE void f_permute(const VF* v, const VI* index, VF* out) {
 SHOAL_INLINE void i_compress(const VI* v, const VM* m, VI* out) {
   out[0] = (VI)_mm512_maskz_compress_epi32(m[0], (__m512i)v[0]);
 }
-SHOAL_INLINE VI i_gather(const std::int32_t* base, VI index) { return (VI)_mm512_i32gather_epi32((__m512i)index, base, 4); }
+SHOAL_INLINE VI i_gather(const std::int32_t* base, VI index) {
+  return (VI)_mm512_i32gather_epi32((__m512i)index, base, 4);
+}
 SHOAL_INLINE VI i_gather(const std::int32_t* base, VI index, VM m, VI other) {
   return (VI)_mm512_mask_i32gather_epi32((__m512i)other, m, (__m512i)index, base, 4);
 }

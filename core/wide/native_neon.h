@@ -110,11 +110,7 @@ SHOAL_INLINE float f_reduce_max(const VF* v) {
   const VF two = f_max(four, vextq_f32(four, four, 2));
   return two[0] > two[1] ? two[0] : two[1];
 }
-SHOAL_INLINE std::int32_t i_reduce_min(const VI* v) {
-  return vminvq_s32(i_min(i_min(v[0], v[2]), i_min(v[1], v[3])));
-}
-SHOAL_INLINE std::int32_t i_reduce_max(const VI* v) {
-  return vmaxvq_s32(i_max(i_max(v[0], v[2]), i_max(v[1], v[3])));
-}
+SHOAL_INLINE std::int32_t i_reduce_min(const VI* v) { return vminvq_s32(i_min(i_min(v[0], v[2]), i_min(v[1], v[3]))); }
+SHOAL_INLINE std::int32_t i_reduce_max(const VI* v) { return vmaxvq_s32(i_max(i_max(v[0], v[2]), i_max(v[1], v[3]))); }
 
 }  // namespace shoal::inline SHOAL_ISA_NS::wide_detail

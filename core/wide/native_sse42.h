@@ -40,8 +40,8 @@ SHOAL_INLINE VF f_floor(VF a) { return _mm_floor_ps(a); }
 SHOAL_INLINE VF f_from_i(VI a) { return _mm_cvtepi32_ps((__m128i)a); }
 SHOAL_INLINE VI i_trunc(VF a) { return (VI)_mm_cvttps_epi32(a); }
 SHOAL_INLINE VI i_nearest(VF a) { return (VI)_mm_cvtps_epi32(a); }
-// There is no shift by lane: a << n is a times 2^(n & 15), built in a float's exponent, then 16 more where n has that bit.
-// (2^31 at once would rely on what an overflowing conversion gives, which GCC folds otherwise than x86 computes.)
+// There is no shift by lane: a << n is a times 2^(n & 15), built in a float's exponent, then 16 more where n has that
+// bit. (2^31 at once would rely on what an overflowing conversion gives, which GCC folds otherwise than x86 computes.)
 SHOAL_INLINE VI i_shl(VI a, VI n) {
   const VU power = (VU)i_trunc((VF)((((VU)n & 15u) << 23u) + 0x3F800000u));
   const VU r = (VU)a * power;

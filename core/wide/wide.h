@@ -1,8 +1,8 @@
 // The wide type: sixteen logical lanes on every machine, whatever its registers (docs/ARCHITECTURE.md, "Lanes").
 //
 // WideF, WideI and WideM hold sixteen floats, int32s and booleans. Code is written once, templated on the lane type F:
-// with F = float it does one pixel, with F = WideF sixteen, and the bits are the same. core/wide/lanes.h gives float the
-// same vocabulary. Every operation is exact IEEE or integer arithmetic; there is no fused multiply-add and no
+// with F = float it does one pixel, with F = WideF sixteen, and the bits are the same. core/wide/lanes.h gives float
+// the same vocabulary. Every operation is exact IEEE or integer arithmetic; there is no fused multiply-add and no
 // approximation, and no sum across lanes.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The wide type on native vectors: a struct of kParts registers (1 zmm, 2 ymm, 4 xmm or 4 NEON), every operator unrolled
-// by hand, for a loop over the parts stays rolled in GCC at -O2 (docs/PERFORMANCE.md).
+// The wide type on native vectors: a struct of kParts registers (1 zmm, 2 ymm, 4 xmm or 4 NEON), every operator
+// unrolled by hand, for a loop over the parts stays rolled in GCC at -O2 (docs/PERFORMANCE.md).
 //
 // The primitives (wide_detail::f_*, i_*, m_*) are the native_*.h file's; + - * / & | ^ << >> are the compiler's own
 // vector operators. What each function does is written in core/wide/wide_scalar.h, the reference body.
@@ -104,14 +104,14 @@ struct alignas(64) WideI {
   }
 };
 
-#define SHOAL_WIDE_UNARY(R, NAME, A, T, EXPR) \
-  SHOAL_INLINE R NAME(A a) {                  \
-    using namespace wide_detail;              \
+#define SHOAL_WIDE_UNARY(R, NAME, A, T, EXPR)             \
+  SHOAL_INLINE R NAME(A a) {                              \
+    using namespace wide_detail;                          \
     return each<R>(a, [](T x) SHOAL_OP { return EXPR; }); \
   }
-#define SHOAL_WIDE_BINARY(R, NAME, A, T, EXPR) \
-  SHOAL_INLINE R NAME(A a, A b) {              \
-    using namespace wide_detail;               \
+#define SHOAL_WIDE_BINARY(R, NAME, A, T, EXPR)                    \
+  SHOAL_INLINE R NAME(A a, A b) {                                 \
+    using namespace wide_detail;                                  \
     return each<R>(a, b, [](T x, T y) SHOAL_OP { return EXPR; }); \
   }
 
@@ -130,8 +130,8 @@ SHOAL_INLINE WideM operator>=(WideF a, WideF b) { return b <= a; }
 // Unsigned, so that wrapping is defined whatever the flags.
 SHOAL_WIDE_BINARY(WideI, operator+, WideI, VI, (VI)((VU)x + (VU)y))
 SHOAL_WIDE_BINARY(WideI, operator-, WideI, VI, (VI)((VU)x - (VU)y))
-SHOAL_WIDE_BINARY(WideI, operator*, WideI, VI, (VI)((VU)x * (VU)y))
-SHOAL_WIDE_BINARY(WideI, operator&, WideI, VI, x & y)
+SHOAL_WIDE_BINARY(WideI, operator*, WideI, VI, (VI)((VU)x*(VU)y))
+SHOAL_WIDE_BINARY(WideI, operator&, WideI, VI, x& y)
 SHOAL_WIDE_BINARY(WideI, operator|, WideI, VI, x | y)
 SHOAL_WIDE_BINARY(WideI, operator^, WideI, VI, x ^ y)
 SHOAL_INLINE WideI operator-(WideI a) { return WideI(0) - a; }
@@ -189,7 +189,7 @@ SHOAL_WIDE_BINARY(WideF, max, WideF, VF, f_max(x, y))
 SHOAL_WIDE_BINARY(WideI, min, WideI, VI, i_min(x, y))
 SHOAL_WIDE_BINARY(WideI, max, WideI, VI, i_max(x, y))
 SHOAL_WIDE_UNARY(WideF, sqrt, WideF, VF, f_sqrt(x))
-SHOAL_WIDE_UNARY(WideF, abs, WideF, VF, (VF)((VI)x & i_set1(INT32_MAX)))
+SHOAL_WIDE_UNARY(WideF, abs, WideF, VF, (VF)((VI)x& i_set1(INT32_MAX)))
 SHOAL_WIDE_UNARY(WideF, floor, WideF, VF, f_floor(x))
 SHOAL_INLINE WideI abs(WideI a) { return max(a, -a); }
 

@@ -63,32 +63,69 @@ SHOAL_INLINE T reduce(const T* lane, Pick pick) {
 }
 }  // namespace wide_detail
 
-SHOAL_INLINE WideF operator+(WideF a, WideF b) { return wide_detail::each<WideF>([&](int i) { return a.lane[i] + b.lane[i]; }); }
-SHOAL_INLINE WideF operator-(WideF a, WideF b) { return wide_detail::each<WideF>([&](int i) { return a.lane[i] - b.lane[i]; }); }
-SHOAL_INLINE WideF operator*(WideF a, WideF b) { return wide_detail::each<WideF>([&](int i) { return a.lane[i] * b.lane[i]; }); }
-SHOAL_INLINE WideF operator/(WideF a, WideF b) { return wide_detail::each<WideF>([&](int i) { return a.lane[i] / b.lane[i]; }); }
-SHOAL_INLINE WideF operator-(WideF a) { return wide_detail::each<WideF>([&](int i) { return -a.lane[i]; }); }
-SHOAL_INLINE WideM operator<(WideF a, WideF b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] < b.lane[i]; }); }
-SHOAL_INLINE WideM operator<=(WideF a, WideF b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] <= b.lane[i]; }); }
+SHOAL_INLINE WideF operator+(WideF a, WideF b) {
+  return wide_detail::each<WideF>([&](int i) { return a.lane[i] + b.lane[i]; });
+}
+SHOAL_INLINE WideF operator-(WideF a, WideF b) {
+  return wide_detail::each<WideF>([&](int i) { return a.lane[i] - b.lane[i]; });
+}
+SHOAL_INLINE WideF operator*(WideF a, WideF b) {
+  return wide_detail::each<WideF>([&](int i) { return a.lane[i] * b.lane[i]; });
+}
+SHOAL_INLINE WideF operator/(WideF a, WideF b) {
+  return wide_detail::each<WideF>([&](int i) { return a.lane[i] / b.lane[i]; });
+}
+SHOAL_INLINE WideF operator-(WideF a) {
+  return wide_detail::each<WideF>([&](int i) { return -a.lane[i]; });
+}
+SHOAL_INLINE WideM operator<(WideF a, WideF b) {
+  return wide_detail::each<WideM>([&](int i) { return a.lane[i] < b.lane[i]; });
+}
+SHOAL_INLINE WideM operator<=(WideF a, WideF b) {
+  return wide_detail::each<WideM>([&](int i) { return a.lane[i] <= b.lane[i]; });
+}
 SHOAL_INLINE WideM operator>(WideF a, WideF b) { return b < a; }
 SHOAL_INLINE WideM operator>=(WideF a, WideF b) { return b <= a; }
-SHOAL_INLINE WideM operator==(WideF a, WideF b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] == b.lane[i]; }); }
-SHOAL_INLINE WideM operator!=(WideF a, WideF b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] != b.lane[i]; }); }
+SHOAL_INLINE WideM operator==(WideF a, WideF b) {
+  return wide_detail::each<WideM>([&](int i) { return a.lane[i] == b.lane[i]; });
+}
+SHOAL_INLINE WideM operator!=(WideF a, WideF b) {
+  return wide_detail::each<WideM>([&](int i) { return a.lane[i] != b.lane[i]; });
+}
 
 // Integers wrap.
-SHOAL_INLINE WideI operator+(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) + wide_detail::bits(b.lane[i])); }); }
-SHOAL_INLINE WideI operator-(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) - wide_detail::bits(b.lane[i])); }); }
+SHOAL_INLINE WideI operator+(WideI a, WideI b) {
+  return wide_detail::each<WideI>(
+      [&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) + wide_detail::bits(b.lane[i])); });
+}
+SHOAL_INLINE WideI operator-(WideI a, WideI b) {
+  return wide_detail::each<WideI>(
+      [&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) - wide_detail::bits(b.lane[i])); });
+}
 // The low 32 bits.
-SHOAL_INLINE WideI operator*(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) * wide_detail::bits(b.lane[i])); }); }
+SHOAL_INLINE WideI operator*(WideI a, WideI b) {
+  return wide_detail::each<WideI>(
+      [&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) * wide_detail::bits(b.lane[i])); });
+}
 SHOAL_INLINE WideI operator-(WideI a) { return WideI(0) - a; }
-SHOAL_INLINE WideI operator&(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return a.lane[i] & b.lane[i]; }); }
-SHOAL_INLINE WideI operator|(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return a.lane[i] | b.lane[i]; }); }
-SHOAL_INLINE WideI operator^(WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return a.lane[i] ^ b.lane[i]; }); }
+SHOAL_INLINE WideI operator&(WideI a, WideI b) {
+  return wide_detail::each<WideI>([&](int i) { return a.lane[i] & b.lane[i]; });
+}
+SHOAL_INLINE WideI operator|(WideI a, WideI b) {
+  return wide_detail::each<WideI>([&](int i) { return a.lane[i] | b.lane[i]; });
+}
+SHOAL_INLINE WideI operator^(WideI a, WideI b) {
+  return wide_detail::each<WideI>([&](int i) { return a.lane[i] ^ b.lane[i]; });
+}
 SHOAL_INLINE WideI operator~(WideI a) { return a ^ WideI(-1); }
 // Shifts are by 0..31, elsewhere undefined.
-SHOAL_INLINE WideI operator<<(WideI a, int n) { return wide_detail::each<WideI>([&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) << n); }); }
+SHOAL_INLINE WideI operator<<(WideI a, int n) {
+  return wide_detail::each<WideI>([&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) << n); });
+}
 // Arithmetic shift.
-SHOAL_INLINE WideI operator>>(WideI a, int n) { return wide_detail::each<WideI>([&](int i) { return a.lane[i] >> n; }); }
+SHOAL_INLINE WideI operator>>(WideI a, int n) {
+  return wide_detail::each<WideI>([&](int i) { return a.lane[i] >> n; });
+}
 SHOAL_INLINE WideI shift_right_logical(WideI a, int n) {
   return wide_detail::each<WideI>([&](int i) { return std::int32_t(std::uint32_t(a.lane[i]) >> n); });
 }
@@ -99,17 +136,33 @@ SHOAL_INLINE WideI shift_left(WideI a, WideI n) {
 SHOAL_INLINE WideI shift_right_logical(WideI a, WideI n) {
   return wide_detail::each<WideI>([&](int i) { return wide_detail::wrap(wide_detail::bits(a.lane[i]) >> n.lane[i]); });
 }
-SHOAL_INLINE WideM operator<(WideI a, WideI b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] < b.lane[i]; }); }
-SHOAL_INLINE WideM operator<=(WideI a, WideI b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] <= b.lane[i]; }); }
+SHOAL_INLINE WideM operator<(WideI a, WideI b) {
+  return wide_detail::each<WideM>([&](int i) { return a.lane[i] < b.lane[i]; });
+}
+SHOAL_INLINE WideM operator<=(WideI a, WideI b) {
+  return wide_detail::each<WideM>([&](int i) { return a.lane[i] <= b.lane[i]; });
+}
 SHOAL_INLINE WideM operator>(WideI a, WideI b) { return b < a; }
 SHOAL_INLINE WideM operator>=(WideI a, WideI b) { return b <= a; }
-SHOAL_INLINE WideM operator==(WideI a, WideI b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] == b.lane[i]; }); }
-SHOAL_INLINE WideM operator!=(WideI a, WideI b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] != b.lane[i]; }); }
+SHOAL_INLINE WideM operator==(WideI a, WideI b) {
+  return wide_detail::each<WideM>([&](int i) { return a.lane[i] == b.lane[i]; });
+}
+SHOAL_INLINE WideM operator!=(WideI a, WideI b) {
+  return wide_detail::each<WideM>([&](int i) { return a.lane[i] != b.lane[i]; });
+}
 
-SHOAL_INLINE WideM operator&(WideM a, WideM b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] && b.lane[i]; }); }
-SHOAL_INLINE WideM operator|(WideM a, WideM b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] || b.lane[i]; }); }
-SHOAL_INLINE WideM operator^(WideM a, WideM b) { return wide_detail::each<WideM>([&](int i) { return a.lane[i] != b.lane[i]; }); }
-SHOAL_INLINE WideM operator!(WideM a) { return wide_detail::each<WideM>([&](int i) { return !a.lane[i]; }); }
+SHOAL_INLINE WideM operator&(WideM a, WideM b) {
+  return wide_detail::each<WideM>([&](int i) { return a.lane[i] && b.lane[i]; });
+}
+SHOAL_INLINE WideM operator|(WideM a, WideM b) {
+  return wide_detail::each<WideM>([&](int i) { return a.lane[i] || b.lane[i]; });
+}
+SHOAL_INLINE WideM operator^(WideM a, WideM b) {
+  return wide_detail::each<WideM>([&](int i) { return a.lane[i] != b.lane[i]; });
+}
+SHOAL_INLINE WideM operator!(WideM a) {
+  return wide_detail::each<WideM>([&](int i) { return !a.lane[i]; });
+}
 // Bit i of the result is lane i; the upper sixteen bits are 0.
 SHOAL_INLINE std::uint32_t to_bits(WideM m) {
   std::uint32_t bits = 0;
@@ -123,32 +176,57 @@ SHOAL_INLINE bool any(WideM m) { return to_bits(m) != 0; }
 SHOAL_INLINE bool all(WideM m) { return to_bits(m) == 0xFFFFu; }
 SHOAL_INLINE bool none(WideM m) { return to_bits(m) == 0; }
 
-SHOAL_INLINE WideF select(WideM m, WideF a, WideF b) { return wide_detail::each<WideF>([&](int i) { return m.lane[i] ? a.lane[i] : b.lane[i]; }); }
-SHOAL_INLINE WideI select(WideM m, WideI a, WideI b) { return wide_detail::each<WideI>([&](int i) { return m.lane[i] ? a.lane[i] : b.lane[i]; }); }
+SHOAL_INLINE WideF select(WideM m, WideF a, WideF b) {
+  return wide_detail::each<WideF>([&](int i) { return m.lane[i] ? a.lane[i] : b.lane[i]; });
+}
+SHOAL_INLINE WideI select(WideM m, WideI a, WideI b) {
+  return wide_detail::each<WideI>([&](int i) { return m.lane[i] ? a.lane[i] : b.lane[i]; });
+}
 // min is a < b ? a : b and max is a > b ? a : b, so a NaN in either gives b.
 SHOAL_INLINE WideF min(WideF a, WideF b) { return select(a < b, a, b); }
 SHOAL_INLINE WideF max(WideF a, WideF b) { return select(a > b, a, b); }
 SHOAL_INLINE WideI min(WideI a, WideI b) { return select(a < b, a, b); }
 SHOAL_INLINE WideI max(WideI a, WideI b) { return select(a > b, a, b); }
-SHOAL_INLINE WideF sqrt(WideF a) { return wide_detail::each<WideF>([&](int i) { return std::sqrt(a.lane[i]); }); }
-SHOAL_INLINE WideF abs(WideF a) { return wide_detail::each<WideF>([&](int i) { return std::fabs(a.lane[i]); }); }
+SHOAL_INLINE WideF sqrt(WideF a) {
+  return wide_detail::each<WideF>([&](int i) { return std::sqrt(a.lane[i]); });
+}
+SHOAL_INLINE WideF abs(WideF a) {
+  return wide_detail::each<WideF>([&](int i) { return std::fabs(a.lane[i]); });
+}
 SHOAL_INLINE WideI abs(WideI a) { return max(a, -a); }
-SHOAL_INLINE WideF floor(WideF a) { return wide_detail::each<WideF>([&](int i) { return std::floor(a.lane[i]); }); }
+SHOAL_INLINE WideF floor(WideF a) {
+  return wide_detail::each<WideF>([&](int i) { return std::floor(a.lane[i]); });
+}
 
-// Lane by lane: of a bit_cast of the whole struct GCC 12 makes accesses that its alias analysis then moves (AArch64, -O2).
-SHOAL_INLINE WideI as_int(WideF a) { return wide_detail::each<WideI>([&](int i) { return std::bit_cast<std::int32_t>(a.lane[i]); }); }
-SHOAL_INLINE WideF as_float(WideI a) { return wide_detail::each<WideF>([&](int i) { return std::bit_cast<float>(a.lane[i]); }); }
-SHOAL_INLINE WideF to_float(WideI a) { return wide_detail::each<WideF>([&](int i) { return float(a.lane[i]); }); }
+// Lane by lane: of a bit_cast of the whole struct GCC 12 makes accesses that its alias analysis then moves (AArch64,
+// -O2).
+SHOAL_INLINE WideI as_int(WideF a) {
+  return wide_detail::each<WideI>([&](int i) { return std::bit_cast<std::int32_t>(a.lane[i]); });
+}
+SHOAL_INLINE WideF as_float(WideI a) {
+  return wide_detail::each<WideF>([&](int i) { return std::bit_cast<float>(a.lane[i]); });
+}
+SHOAL_INLINE WideF to_float(WideI a) {
+  return wide_detail::each<WideF>([&](int i) { return float(a.lane[i]); });
+}
 // v with its sign turned over where m is set (zeros and infinities too).
 SHOAL_INLINE WideF flip_sign_if(WideF v, WideM m) { return select(m, -v, v); }
 // Toward zero. The argument must be within +-2147483520 and no NaN.
-SHOAL_INLINE WideI to_int_trunc(WideF a) { return wide_detail::each<WideI>([&](int i) { return std::int32_t(a.lane[i]); }); }
+SHOAL_INLINE WideI to_int_trunc(WideF a) {
+  return wide_detail::each<WideI>([&](int i) { return std::int32_t(a.lane[i]); });
+}
 // Nearest, ties to even. Same domain. The rounding mode is nearest wherever Shoal runs (core/float_mode.h).
-SHOAL_INLINE WideI to_int_nearest(WideF a) { return wide_detail::each<WideI>([&](int i) { return std::int32_t(std::lrintf(a.lane[i])); }); }
+SHOAL_INLINE WideI to_int_nearest(WideF a) {
+  return wide_detail::each<WideI>([&](int i) { return std::int32_t(std::lrintf(a.lane[i])); });
+}
 
 // lane i of the result is lane index[i] & 15 of v.
-SHOAL_INLINE WideF permute(WideF v, WideI index) { return wide_detail::each<WideF>([&](int i) { return v.lane[index.lane[i] & 15]; }); }
-SHOAL_INLINE WideI permute(WideI v, WideI index) { return wide_detail::each<WideI>([&](int i) { return v.lane[index.lane[i] & 15]; }); }
+SHOAL_INLINE WideF permute(WideF v, WideI index) {
+  return wide_detail::each<WideF>([&](int i) { return v.lane[index.lane[i] & 15]; });
+}
+SHOAL_INLINE WideI permute(WideI v, WideI index) {
+  return wide_detail::each<WideI>([&](int i) { return v.lane[index.lane[i] & 15]; });
+}
 // The lanes that m selects, in order, at the front; the rest is 0.
 SHOAL_INLINE WideI compress(WideI v, WideM m) {
   WideI r(0);
@@ -158,8 +236,12 @@ SHOAL_INLINE WideI compress(WideI v, WideM m) {
 }
 SHOAL_INLINE WideF compress(WideF v, WideM m) { return as_float(compress(as_int(v), m)); }
 
-SHOAL_INLINE WideF gather(const float* base, WideI index) { return wide_detail::each<WideF>([&](int i) { return base[index.lane[i]]; }); }
-SHOAL_INLINE WideI gather(const std::int32_t* base, WideI index) { return wide_detail::each<WideI>([&](int i) { return base[index.lane[i]]; }); }
+SHOAL_INLINE WideF gather(const float* base, WideI index) {
+  return wide_detail::each<WideF>([&](int i) { return base[index.lane[i]]; });
+}
+SHOAL_INLINE WideI gather(const std::int32_t* base, WideI index) {
+  return wide_detail::each<WideI>([&](int i) { return base[index.lane[i]]; });
+}
 // Loads base[index] only where m is set; elsewhere the result is `other` and no memory is read.
 SHOAL_INLINE WideF gather(const float* base, WideI index, WideM m, WideF other) {
   return wide_detail::each<WideF>([&](int i) { return m.lane[i] ? base[index.lane[i]] : other.lane[i]; });
@@ -176,7 +258,9 @@ SHOAL_INLINE void load_texel_pairs(const std::uint32_t* base, WideI index, WideI
     second.lane[i] = pair[1];
   }
 }
-SHOAL_INLINE WideI load_u8(const std::uint8_t* p) { return wide_detail::each<WideI>([&](int i) { return std::int32_t(p[i]); }); }
+SHOAL_INLINE WideI load_u8(const std::uint8_t* p) {
+  return wide_detail::each<WideI>([&](int i) { return std::int32_t(p[i]); });
+}
 // Each lane clamped to 0..255, one byte each.
 SHOAL_INLINE void store_u8(std::uint8_t* p, WideI v) {
   for (int i = 0; i < 16; ++i) p[i] = std::uint8_t(v.lane[i] < 0 ? 0 : v.lane[i] > 255 ? 255 : v.lane[i]);
@@ -186,15 +270,21 @@ SHOAL_INLINE void store_masked(float* p, WideF v, WideM m) { select(m, v, WideF:
 SHOAL_INLINE void store_masked(std::int32_t* p, WideI v, WideM m) { select(m, v, WideI::load(p)).store(p); }
 
 // No NaN allowed. Sums across lanes do not exist on purpose.
-SHOAL_INLINE float reduce_min(WideF v) { return wide_detail::reduce(v.lane, [](float a, float b) { return a < b ? a : b; }); }
-SHOAL_INLINE float reduce_max(WideF v) { return wide_detail::reduce(v.lane, [](float a, float b) { return a > b ? a : b; }); }
+SHOAL_INLINE float reduce_min(WideF v) {
+  return wide_detail::reduce(v.lane, [](float a, float b) { return a < b ? a : b; });
+}
+SHOAL_INLINE float reduce_max(WideF v) {
+  return wide_detail::reduce(v.lane, [](float a, float b) { return a > b ? a : b; });
+}
 SHOAL_INLINE std::int32_t reduce_min(WideI v) {
   return wide_detail::reduce(v.lane, [](std::int32_t a, std::int32_t b) { return a < b ? a : b; });
 }
 SHOAL_INLINE std::int32_t reduce_max(WideI v) {
   return wide_detail::reduce(v.lane, [](std::int32_t a, std::int32_t b) { return a > b ? a : b; });
 }
-SHOAL_INLINE WideI lane_index() { return wide_detail::each<WideI>([](int i) { return i; }); }
+SHOAL_INLINE WideI lane_index() {
+  return wide_detail::each<WideI>([](int i) { return i; });
+}
 SHOAL_INLINE float extract(WideF v, int i) { return v.lane[i]; }
 SHOAL_INLINE std::int32_t extract(WideI v, int i) { return v.lane[i]; }
 

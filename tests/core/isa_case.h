@@ -21,8 +21,8 @@ namespace {
 
 bool machine_runs_this_isa() {
 #if defined(SHOAL_ISA_AVX512)
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd");
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd");
 #elif defined(SHOAL_ISA_AVX2)
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2");
 #elif defined(SHOAL_ISA_SSE42)
@@ -34,13 +34,13 @@ bool machine_runs_this_isa() {
 
 }  // namespace
 
-#define SHOAL_ISA_CASE(function, name)                        \
-  static void function();                                     \
-  TEST_CASE(SHOAL_ISA_TEXT ": " name) {                       \
-    if (!machine_runs_this_isa()) {                           \
-      WARN("skipped: this machine has no " SHOAL_ISA_TEXT);   \
-      return;                                                 \
-    }                                                         \
-    function();                                               \
-  }                                                           \
+#define SHOAL_ISA_CASE(function, name)                      \
+  static void function();                                   \
+  TEST_CASE(SHOAL_ISA_TEXT ": " name) {                     \
+    if (!machine_runs_this_isa()) {                         \
+      WARN("skipped: this machine has no " SHOAL_ISA_TEXT); \
+      return;                                               \
+    }                                                       \
+    function();                                             \
+  }                                                         \
   static void function()

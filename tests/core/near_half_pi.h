@@ -1,4 +1,4 @@
-// The float of each binade from 1 up that is nearest to a multiple of pi/2, as bits: the worst cases of range reduction.
+// The float of each binade from 1 up that is nearest to a multiple of pi/2, as bits: worst cases of range reduction.
 //
 // Found by trying all mantissas of each exponent against 2/pi to 224 bits.
 #pragma once

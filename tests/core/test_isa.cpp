@@ -16,7 +16,8 @@ TEST_CASE("isa names go both ways") {
     CHECK(shoal::isa_name(all[i]) == names[i]);
     CHECK(shoal::parse_isa(names[i]) == all[i]);
   }
-  for (const char* word : {"", "AVX2", "sse42", "avx", "scalar ", "best"}) CHECK_FALSE(shoal::parse_isa(word).has_value());
+  for (const char* word : {"", "AVX2", "sse42", "avx", "scalar ", "best"})
+    CHECK_FALSE(shoal::parse_isa(word).has_value());
 }
 
 TEST_CASE("supported isas are best first and end with scalar") {
@@ -32,7 +33,9 @@ TEST_CASE("supported isas are best first and end with scalar") {
   while (std::getline(file, line) && line.rfind("flags", 0) != 0) {
   }
   if (line.empty()) return;
-  const auto has = [&line](const std::string& flag) { return (line + " ").find(" " + flag + " ") != std::string::npos; };
+  const auto has = [&line](const std::string& flag) {
+    return (line + " ").find(" " + flag + " ") != std::string::npos;
+  };
   const auto listed = [&isas](Isa isa) { return std::find(isas.begin(), isas.end(), isa) != isas.end(); };
   CHECK(listed(Isa::kSse42) == (has("sse4_2") && has("popcnt")));
   CHECK(listed(Isa::kAvx2) == (has("avx2") && has("bmi2") && has("fma")));

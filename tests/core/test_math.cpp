@@ -92,11 +92,12 @@ void check_same_bits(const char* name, const Inputs& inputs, Alone alone, Wide w
   }
 }
 
-#define SHOAL_CHECK_FUNCTION(function, inputs, bound, truth)                                       \
-  do {                                                                                             \
-    check_bound(#function, inputs, bound, [](float v) { return function(v); }, truth);             \
-    check_same_bits(#function, inputs, [](float v) { return function(v); },                        \
-                    [](WideF v) { return function(v); });                                          \
+#define SHOAL_CHECK_FUNCTION(function, inputs, bound, truth)                                          \
+  do {                                                                                                \
+    check_bound(                                                                                      \
+        #function, inputs, bound, [](float v) { return function(v); }, truth);                        \
+    check_same_bits(                                                                                  \
+        #function, inputs, [](float v) { return function(v); }, [](WideF v) { return function(v); }); \
   } while (false)
 
 Inputs angles() {
@@ -228,7 +229,8 @@ SHOAL_ISA_CASE(test_atan2, "atan2 in all quadrants, at every ratio, at zeros and
   double worst = 0.0;
   std::size_t at = 0;
   for (std::size_t i = 0; i < ys.size(); ++i) {
-    const double error = ulps(det_atan2(ys[i], xs[i]), std::atan2(static_cast<double>(ys[i]), static_cast<double>(xs[i])));
+    const double error =
+        ulps(det_atan2(ys[i], xs[i]), std::atan2(static_cast<double>(ys[i]), static_cast<double>(xs[i])));
     if (error <= worst) continue;
     worst = error;
     at = i;
@@ -274,7 +276,8 @@ SHOAL_ISA_CASE(test_pow, "pow: any base, near 1 with large exponents, overflow a
     add(x, unit() * 8.0 - 4.0);
   }
   for (int i = 1; i < 4000; ++i) {
-    for (const float x : {from_bits(0x3F800000u + static_cast<std::uint32_t>(i)), from_bits(0x3F800000u - static_cast<std::uint32_t>(i))})
+    for (const float x : {from_bits(0x3F800000u + static_cast<std::uint32_t>(i)),
+                          from_bits(0x3F800000u - static_cast<std::uint32_t>(i))})
       for (int n = 0; n < 4; ++n) add(x, (unit() * 284.0 - 154.0) / std::log2(static_cast<double>(x)));
   }
   for (int i = 0; i < 60000; ++i) add(static_cast<float>(unit() * 4.0), unit() * 6.0 - 3.0);

@@ -23,12 +23,34 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr std::int32_t kMin = std::numeric_limits<std::int32_t>::min();
 constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
 const float kNan = std::numeric_limits<float>::quiet_NaN();
-const std::vector<float> kEdgeFloats = {
-    0.0f,      -0.0f,    1.0f,       -1.0f,    0.5f,        -0.5f,        1.5f,          2.5f,           -2.5f,
-    0x1p-149f, -0x1p-149f, 0x1p-126f, 0x1.fffffcp-127f, 0x1.fffffep+127f, -0x1.fffffep+127f, 8388608.0f, 8388607.5f,
-    -8388607.5f, 16777216.0f, 255.0f, 256.0f, 0x1p-64f, kInf, -kInf, kNan};
-const std::vector<std::int32_t> kEdgeInts = {0, 1, -1, 2, 255, 256, -256, 32767, 32768, -32768, -32769, 65536,
-                                             0x55555555, kMin, kMin + 1, kMax, kMax - 1, 16777217};
+const std::vector<float> kEdgeFloats = {0.0f,
+                                        -0.0f,
+                                        1.0f,
+                                        -1.0f,
+                                        0.5f,
+                                        -0.5f,
+                                        1.5f,
+                                        2.5f,
+                                        -2.5f,
+                                        0x1p-149f,
+                                        -0x1p-149f,
+                                        0x1p-126f,
+                                        0x1.fffffcp-127f,
+                                        0x1.fffffep+127f,
+                                        -0x1.fffffep+127f,
+                                        8388608.0f,
+                                        8388607.5f,
+                                        -8388607.5f,
+                                        16777216.0f,
+                                        255.0f,
+                                        256.0f,
+                                        0x1p-64f,
+                                        kInf,
+                                        -kInf,
+                                        kNan};
+const std::vector<std::int32_t> kEdgeInts = {0,          1,     -1,       2,      255,      256,
+                                             -256,       32767, 32768,    -32768, -32769,   65536,
+                                             0x55555555, kMin,  kMin + 1, kMax,   kMax - 1, 16777217};
 
 class Source {
  public:
@@ -41,8 +63,12 @@ class Source {
     if (bits() % 3 == 0) return kEdgeInts[bits() % kEdgeInts.size()];
     return static_cast<std::int32_t>(bits());
   }
-  Floats floats() { return filled<Floats>([&] { return any_float(); }); }
-  Ints ints() { return filled<Ints>([&] { return any_int(); }); }
+  Floats floats() {
+    return filled<Floats>([&] { return any_float(); });
+  }
+  Ints ints() {
+    return filled<Ints>([&] { return any_int(); });
+  }
   Ints ints(std::int32_t low, std::int32_t high) {
     const std::uint32_t range = static_cast<std::uint32_t>(high - low) + 1u;
     return filled<Ints>([&] { return low + static_cast<std::int32_t>(bits() % range); });
@@ -108,7 +134,8 @@ std::uint32_t bits_where(const A& a, const A& b, Test test) {
 
 }  // namespace
 
-// The double result of one operation on floats, rounded to float, is the correctly rounded float result (53 >= 2 24 + 2).
+// The double result of one operation on floats, rounded to float, is the correctly rounded float result (53 >= 2 24 +
+// 2).
 SHOAL_ISA_CASE(test_arithmetic, "float arithmetic is correctly rounded") {
   Source source;
   for (int round = 0; round < kRounds; ++round) {
@@ -118,7 +145,8 @@ SHOAL_ISA_CASE(test_arithmetic, "float arithmetic is correctly rounded") {
     check("*", lanes(wide(a) * wide(b)), each(a, b, [](double x, double y) { return static_cast<float>(x * y); }));
     check("/", lanes(wide(a) / wide(b)), each(a, b, [](double x, double y) { return static_cast<float>(x / y); }));
     check("sqrt", lanes(sqrt(wide(a))), each(a, a, [](double x, double) { return static_cast<float>(std::sqrt(x)); }));
-    check("floor", lanes(floor(wide(a))), each(a, a, [](double x, double) { return static_cast<float>(std::floor(x)); }));
+    check("floor", lanes(floor(wide(a))),
+          each(a, a, [](double x, double) { return static_cast<float>(std::floor(x)); }));
   }
 }
 
@@ -256,7 +284,8 @@ SHOAL_ISA_CASE(test_conversions, "conversions between float and int") {
     // Everything in the domain: halves, large numbers, denormals.
     const Floats f = Source::filled<Floats>([&] {
       const float v = source.any_float();
-      if (source.bits() % 2 == 0) return 0.5f * static_cast<float>(static_cast<std::int32_t>(source.bits() % 4001u) - 2000);
+      if (source.bits() % 2 == 0)
+        return 0.5f * static_cast<float>(static_cast<std::int32_t>(source.bits() % 4001u) - 2000);
       return std::fabs(v) <= 2147483520.0f ? v : 2147483520.0f;
     });
     Ints truncated, nearest;
@@ -352,8 +381,7 @@ SHOAL_ISA_CASE(test_stores, "stores: unaligned, bytes, masked") {
     std::array<std::int32_t, 32> memory;
     memory.fill(77);
     WideI::load(v.data()).store(memory.data() + offset);
-    for (std::size_t i = 0; i < 32; ++i)
-      REQUIRE(memory[i] == (i >= offset && i < offset + 16 ? v[i - offset] : 77));
+    for (std::size_t i = 0; i < 32; ++i) REQUIRE(memory[i] == (i >= offset && i < offset + 16 ? v[i - offset] : 77));
     check("unaligned load", lanes(WideI::load(memory.data() + offset)), v);
 
     std::array<std::uint8_t, 32> bytes;
