@@ -14,7 +14,7 @@
 #include "raster/ray_triangle.h"
 #include "raster/surface.h"
 
-namespace shoal {
+namespace shoal::inline SHOAL_ISA_NS {
 
 // Sixteen pixels of one block, interpolated; lanes that were not asked for hold zeros or finite leftovers.
 template <class F>
@@ -24,11 +24,8 @@ struct PixelAttributes {
   F t;                    // of the hit along the ray, in its direction's lengths
   Vec2<F> uv, duv_dx, duv_dy;
   Vec4<F> color;          // COLOR_0, 1 where there is none
+  IntOf<F> material;
 };
-
-}  // namespace shoal
-
-namespace shoal::inline SHOAL_ISA_NS {
 
 // Calls body(lane, lanes) for each distinct value among the active lanes, in the order of their first lane.
 template <class Body>
@@ -52,6 +49,8 @@ struct TriangleLanes {
   Vec3<WideF> p0, e1, e2;
   Vec3<WideF> n0, n1, n2;
   Vec2<WideF> uv0, duv1, duv2;
+  Vec4<WideF> c0, dc1, dc2;  // COLOR_0 likewise; untouched where the geometry has none
+  WideI material;
 };
 
 // One triangle in every lane.
@@ -61,28 +60,28 @@ SHOAL_INLINE TriangleLanes fetch_triangle(const GeometryView& g, std::int32_t id
   return {broadcast<WideF>(a.position_world), broadcast<WideF>(b.position_world - a.position_world),
           broadcast<WideF>(c.position_world - a.position_world),
           broadcast<WideF>(a.normal_world), broadcast<WideF>(b.normal_world), broadcast<WideF>(c.normal_world),
-          broadcast<WideF>(a.uv), broadcast<WideF>(b.uv - a.uv), broadcast<WideF>(c.uv - a.uv)};
+          broadcast<WideF>(a.uv), broadcast<WideF>(b.uv - a.uv), broadcast<WideF>(c.uv - a.uv),
+          {}, {}, {}, WideI(static_cast<std::int32_t>(t.material))};
 }
 SHOAL_INLINE void merge_triangle(TriangleLanes& to, const TriangleLanes& t, WideM lanes) {
   to.p0 = select<WideF>(lanes, t.p0, to.p0), to.e1 = select<WideF>(lanes, t.e1, to.e1), to.e2 = select<WideF>(lanes, t.e2, to.e2);
   to.n0 = select<WideF>(lanes, t.n0, to.n0), to.n1 = select<WideF>(lanes, t.n1, to.n1), to.n2 = select<WideF>(lanes, t.n2, to.n2);
   to.uv0 = select<WideF>(lanes, t.uv0, to.uv0);
   to.duv1 = select<WideF>(lanes, t.duv1, to.duv1), to.duv2 = select<WideF>(lanes, t.duv2, to.duv2);
+  to.material = select(lanes, t.material, to.material);
 }
-
-SHOAL_INLINE Vec4<WideF> fetch_color(const GeometryView& g, WideI id, WideM active, WideF u, WideF v) {
-  Vec4<WideF> color{WideF(1.0f), WideF(1.0f), WideF(1.0f), WideF(1.0f)};
-  if (g.colors == nullptr) return color;
-  for_each_distinct(id, active, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
-    const Geometry::TriangleRecord& t = g.triangles[one];
-    const Vec4f &a = g.colors[t.vertex[0]], &b = g.colors[t.vertex[1]], &c = g.colors[t.vertex[2]];
-    auto channel = [&](WideF& to, float fa, float fb, float fc) SHOAL_LAMBDA {
-      to = select(lanes, WideF(fa) + WideF(fb - fa) * u + WideF(fc - fa) * v, to);
-    };
-    channel(color.x, a.x, b.x, c.x), channel(color.y, a.y, b.y, c.y);
-    channel(color.z, a.z, b.z, c.z), channel(color.w, a.w, b.w, c.w);
-  });
-  return color;
+SHOAL_INLINE void merge_colors(const GeometryView& g, std::int32_t id, WideM lanes, TriangleLanes& to) {
+  const Geometry::TriangleRecord& t = g.triangles[id];
+  const Vec4f &a = g.colors[t.vertex[0]], &b = g.colors[t.vertex[1]], &c = g.colors[t.vertex[2]];
+  auto channel = [&](WideF& c0, WideF& dc1, WideF& dc2, float fa, float fb, float fc) SHOAL_LAMBDA {
+    c0 = select(lanes, WideF(fa), c0), dc1 = select(lanes, WideF(fb - fa), dc1), dc2 = select(lanes, WideF(fc - fa), dc2);
+  };
+  channel(to.c0.x, to.dc1.x, to.dc2.x, a.x, b.x, c.x), channel(to.c0.y, to.dc1.y, to.dc2.y, a.y, b.y, c.y);
+  channel(to.c0.z, to.dc1.z, to.dc2.z, a.z, b.z, c.z), channel(to.c0.w, to.dc1.w, to.dc2.w, a.w, b.w, c.w);
+}
+SHOAL_INLINE Vec4<WideF> interpolate_color(const TriangleLanes& t, WideF u, WideF v) {
+  return {(t.c0.x + t.dc1.x * u) + t.dc2.x * v, (t.c0.y + t.dc1.y * u) + t.dc2.y * v,
+          (t.c0.z + t.dc1.z * u) + t.dc2.z * v, (t.c0.w + t.dc1.w * u) + t.dc2.w * v};
 }
 
 // Barycentrics brought into the triangle: coverage is decided on the pixel grid and may exceed the triangle by 1/512 px
@@ -98,9 +97,13 @@ SHOAL_INLINE void clamp_to_triangle(WideF& u, WideF& v) {
 __attribute__((noinline)) inline void resolve_attributes(const GeometryView& g, const Ray<WideF>& ray,
                                                          const RayDifferential<WideF>& differential, WideI id, WideM active,
                                                          PixelAttributes<WideF>& out) {
-  TriangleLanes t = fetch_triangle(g, first_value(id, active));
-  for_each_distinct(id, active & (id != WideI(first_value(id, active))),
-                    [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA { merge_triangle(t, fetch_triangle(g, one), lanes); });
+  const std::int32_t first = first_value(id, active);
+  TriangleLanes t = fetch_triangle(g, first);
+  if (g.colors != nullptr) merge_colors(g, first, mask_from_bits(0xFFFFu), t);
+  for_each_distinct(id, active & (id != WideI(first)), [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
+    merge_triangle(t, fetch_triangle(g, one), lanes);
+    if (g.colors != nullptr) merge_colors(g, one, lanes, t);
+  });
   const TriangleHit<WideF> hit = intersect_triangle(ray, t.p0, t.e1, t.e2);
   const TriangleHitDerivatives<WideF> d = hit_derivatives(ray, differential, t.p0, t.e1, t.e2, hit);
   WideF u = hit.u, v = hit.v;
@@ -115,7 +118,9 @@ __attribute__((noinline)) inline void resolve_attributes(const GeometryView& g, 
   out.uv = t.uv0 + t.duv1 * u + t.duv2 * v;
   out.duv_dx = t.duv1 * d.u_dx + t.duv2 * d.v_dx;
   out.duv_dy = t.duv1 * d.u_dy + t.duv2 * d.v_dy;
-  out.color = fetch_color(g, id, active, u, v);
+  const WideF one(1.0f);
+  out.color = g.colors != nullptr ? interpolate_color(t, u, v) : Vec4<WideF>{one, one, one, one};
+  out.material = t.material;
 }
 
 // Alpha test of the visibility pass: the covered pixels of a masked triangle that its material keeps.

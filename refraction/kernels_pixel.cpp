@@ -28,17 +28,10 @@ void shade_hits(const FrameData& f, const Ray<WideF>& ray,
   resolve_attributes(f.geometry, ray, differential, id, active, a);
   const Vec3<WideF> to_eye = -normalize(ray.direction_world);
 
-  alignas(64) std::int32_t ids[16], materials[16];
-  id.store(ids);
-  for (int i = 0; i < 16; ++i) materials[i] = 0;
-  for (std::uint32_t m = to_bits(active); m != 0; m &= m - 1) {
-    const int lane = __builtin_ctz(m);
-    materials[lane] = static_cast<std::int32_t>(f.geometry.triangles[ids[lane]].material);
-  }
   const Materials& all_materials = f.scene->materials;
   bool first = true;
   WideM unlit = mask_from_bits(0);
-  for_each_distinct(WideI::load(materials), active, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
+  for_each_distinct(a.material, active, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
     const Material& material = f.geometry.materials[one];
     const SurfaceSample<WideF> s = make_surface<WideF>(material, all_materials, a.position_world, a.normal_world, a.uv,
                                                        a.duv_dx, a.duv_dy, a.color, to_eye, lanes);
