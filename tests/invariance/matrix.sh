@@ -3,99 +3,60 @@
 #
 #   matrix.sh [FILE.gltf...]   run from scripts/test --matrix, which installs what it needs
 #
-# Builds go to build/matrix/; the outputs that differ stay there, the first line that differs is printed.
+# Builds go to build/matrix/; outputs that differ stay in build/matrix/out/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source scripts/common.sh
 
 root=build/matrix
+rm -rf $root/out
 mkdir -p $root/out
-reference=""
-runs=0 failures=0
+builds=(g++-O3 g++-O0 clang++-O3 clang++-O0)
+status=0
 
-# compare NAME FILE: against the first file that came.
-compare() {
-  runs=$((runs + 1))
-  if [[ ! -s $2 ]]; then
-    failures=$((failures + 1))
-    printf 'FAILED %s: no digests\n' "$1"
-  elif [[ -z $reference ]]; then
-    reference=$2
-  elif cmp -s "$reference" "$2"; then
-    rm -f "$2"
-  else
-    failures=$((failures + 1))
-    printf 'DIFFERS %s: %s\n' "$1" "$(diff "$reference" "$2" | sed -n 2,4p | tr '\n' ' ')"
-  fi
-}
-
-# sweep NAME RUNNER...: every ISA x thread count x tile size of one build.
-sweep() {
-  local name=$1
+# files_of BUILD FILE...: digests of scene files by every method, through the command, over ISAs, threads and tiles.
+files_of() {
+  local build=$1 shoal=$root/$1/bin/shoal file isa threads tile method out reference
   shift
-  say "$name"
-  local isa threads tile out
-  for isa in $("$@" --list-isas); do
-    for threads in 1 2 7; do
-      for tile in 32 64 128; do
-        out=$root/out/$name-$isa-$threads-$tile
-        "$@" --isa "$isa" --threads "$threads" --tile "$tile" >"$out" || true
-        compare "$name --isa $isa --threads $threads --tile $tile" "$out"
-      done
-    done
-  done
-}
-
-# files NAME SHOAL FILE...: the same for scene files, through the command.
-files() {
-  local name=$1 shoal=$2 isa threads tile method file out
-  shift 2
   for file in "$@"; do
-    say "$name: $file"
-    reference=""
+    reference=$root/out/reference-$(basename "$file")
     for isa in $("$shoal" list isas | awk '{ print $1 }'); do
       for threads in 1 2 7; do
         for tile in 32 64 128; do
-          out=$root/out/$name-$(basename "$file")-$isa-$threads-$tile
+          out=$root/out/$build-$(basename "$file")-$isa-$threads-$tile
           for method in $("$shoal" list methods | awk '{ print $1 }'); do
             "$shoal" render "$file" --method "$method" --size 240x135 --isa "$isa" --threads "$threads" --tile "$tile" \
-              --digest --quiet -o "$root/out/picture.png" || true
+              --digest --quiet -o "$root/out/picture.png" || echo "failed"
           done >"$out"
-          compare "$name $file --isa $isa --threads $threads --tile $tile" "$out"
+          if [[ ! -f $reference ]]; then cp "$out" "$reference"; fi
+          if cmp -s "$reference" "$out" && ! grep -q failed "$out"; then
+            rm -f "$out"
+          else
+            echo "DIFFERS $build $file --isa $isa --threads $threads --tile $tile: $(diff "$reference" "$out" | sed -n 2p)"
+            status=1
+          fi
         done
       done
     done
-    cp "$reference" "$root/out/$(basename "$file").$name.reference"
+    echo "$build: $file"
   done
 }
 
-for compiler in g++ clang++; do
-  for level in O3 O0; do
-    name=$compiler-$level
-    targets=(digest_tool)
-    if (( $# > 0 )); then targets+=(shoal); fi
-    cmake -S . -B "$root/$name" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" \
-      -DSHOAL_OPTIMIZE="-$level" -DSHOAL_TESTS=ON -DSHOAL_BENCH=OFF >"$root/$name.log" 2>&1 || { cat "$root/$name.log"; exit 1; }
-    cmake --build "$root/$name" -j "$(jobs)" --target "${targets[@]}"
-    sweep "$name" "$root/$name/bin/digest_tool"
-  done
+for build in "${builds[@]}"; do
+  compiler=${build%-*} level=${build##*-}
+  say "$build"
+  targets=(digest_tool)
+  if (( $# > 0 )); then targets+=(shoal); fi
+  cmake -S . -B "$root/$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" \
+    -DSHOAL_OPTIMIZE="-$level" -DSHOAL_BENCH=OFF >"$root/$build.log" 2>&1 || { cat "$root/$build.log"; exit 1; }
+  cmake --build "$root/$build" -j "$(jobs)" --target "${targets[@]}"
+  tests/invariance/sweep.sh $root/out/reference $root/out "$build" "$root/$build/bin/digest_tool" || status=1
+  if (( $# > 0 )); then files_of "$build" "$@"; fi
 done
 
 build neon
-sweep neon qemu-aarch64-static build/neon/bin/digest_tool
-ctest --preset neon
+tests/invariance/sweep.sh $root/out/reference $root/out neon qemu-aarch64-static build/neon/bin/digest_tool || status=1
+ctest --preset neon || status=1
 
-if (( $# > 0 )); then
-  for compiler in g++ clang++; do
-    for level in O3 O0; do files "$compiler-$level" "$root/$compiler-$level/bin/shoal" "$@"; done
-  done
-  for file in "$@"; do
-    for name in g++-O0 clang++-O3 clang++-O0; do
-      reference=$root/out/$(basename "$file").g++-O3.reference
-      compare "$name $file" "$root/out/$(basename "$file").$name.reference"
-    done
-  done
-fi
-
-say "matrix: $runs configurations, $failures differ"
-(( failures == 0 ))
+say "$( ((status == 0)) && echo 'all digests are equal' || echo 'digests differ: see above')"
+exit $status

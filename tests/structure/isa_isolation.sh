@@ -23,7 +23,7 @@ fi
     if (name ~ /isa_avx512/) kernels++
     next
   }
-  looked_at && $1 ~ /^[0-9a-f]+:$/ && $2 ~ /^(v[a-z]|shlx|sarx|shrx|rorx|andn|bextr|bls|bzhi|mulx|pdep|pext)/ && $2 !~ /^ver[rw]$/ {
+  looked_at && $1 ~ /^[0-9a-f]+:$/ && $2 ~ /^(v[a-z].*|(shlx|sarx|shrx|rorx|andn|bextr|blsi|blsr|blsmsk|bzhi|mulx|pdep|pext)[lq]?)$/ && $2 !~ /^ver[rw]$/ {
     if (!(name in told)) { told[name] = 1; bad++; if (bad <= 20) print name ": " $2 }
   }
   END {
