@@ -146,8 +146,8 @@ void reserve_geometry(Geometry& g, const GeometrySize& size, bool with_colors) {
 void append_mesh(Geometry& g, const MeshView& mesh) {
   const std::size_t count = mesh.index_count / 3;
   const auto first_id = static_cast<std::uint32_t>(g.triangles.size());
-  g.drawables.push_back({mesh.node, mesh.primitive, mesh.material, first_id, static_cast<std::uint32_t>(count),
-                         mesh.drawn});
+  g.drawables.push_back(
+      {mesh.node, mesh.primitive, mesh.material, first_id, static_cast<std::uint32_t>(count), mesh.drawn});
   // The first mesh with colours whitens the vertices before it.
   if (mesh.colors && g.colors.empty()) g.colors.resize(g.vertices.size(), Vec4f{1, 1, 1, 1});
   const bool with_colors = mesh.colors || !g.colors.empty();

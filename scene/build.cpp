@@ -11,8 +11,8 @@
 namespace shoal {
 namespace {
 
-constexpr float kDefaultDepth_m = 1.0f;       // of a body that has nothing below it
-constexpr float kPlanarTolerance = 1e-4f;     // of the outline's extent
+constexpr float kDefaultDepth_m = 1.0f;    // of a body that has nothing below it
+constexpr float kPlanarTolerance = 1e-4f;  // of the outline's extent
 constexpr float kDefaultOrthographicFar_m = 1000.0f;
 
 [[noreturn]] void fail(const Scene& scene, const Node& node, const std::string& what) {
@@ -118,7 +118,8 @@ Geometry bake_geometry(const Scene& scene) {
     for (std::size_t i = 0; i < p.positions.size(); ++i) {
       positions[i] = transform_point(node.world_from_local, p.positions[i]);
       normals[i] = normal_matrix.apply(p.normals[i]);
-      if (!is_finite(positions[i])) fail(scene, node, "a vertex is not finite in world space; expected finite positions");
+      if (!is_finite(positions[i]))
+        fail(scene, node, "a vertex is not finite in world space; expected finite positions");
     }
     view.positions_world = positions.data();
     view.normals_world = normals.data();
@@ -217,7 +218,8 @@ WaterBody place_water(const Scene& scene, std::size_t node_index, const Geometry
 
   if (!(spec.ior >= 1.0f / 3.0f && spec.ior <= 3.0f)) fail(scene, node, "water ior is out of range; expected 1/3 to 3");
   if (spec.has_size) {
-    if (!(spec.size_x > 0 && spec.size_z > 0)) fail(scene, node, "water size is not positive; expected [x, z] in metres");
+    if (!(spec.size_x > 0 && spec.size_z > 0))
+      fail(scene, node, "water size is not positive; expected [x, z] in metres");
     outline_from_size(body, t, spec.size_x, spec.size_z);
   } else {
     outline_from_mesh(scene, node, body);

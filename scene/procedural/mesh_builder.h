@@ -1,7 +1,7 @@
 // Parametric meshes for procedural scenes: every shape is made of surfaces P(u, v) over the unit square.
 //
-// A part is a function of a PartBuilder and a level of detail. Without a mesh to fill it only adds up triangles, so a scene
-// can be fitted to a triangle count without building it. All arithmetic is + - * / sqrt and core/math.h: the
+// A part is a function of a PartBuilder and a level of detail. Without a mesh to fill it only adds up triangles, so a
+// scene can be fitted to a triangle count without building it. All arithmetic is + - * / sqrt and core/math.h: the
 // meshes are the same bytes everywhere.
 #pragma once
 
@@ -71,7 +71,8 @@ class PartBuilder {
     reserve(p, static_cast<std::size_t>(nu) + 1, static_cast<std::size_t>(nv) + 1);
     for (int j = 0; j <= nv; ++j) {
       for (int i = 0; i <= nu; ++i) {
-        const float u = static_cast<float>(i) / static_cast<float>(nu), v = static_cast<float>(j) / static_cast<float>(nv);
+        const float u = static_cast<float>(i) / static_cast<float>(nu),
+                    v = static_cast<float>(j) / static_cast<float>(nv);
         SurfacePoint s = at(u, v);
         if (normals == Normals::kSmooth) s.normal = smooth_normal(at, u, v);
         push(p, s);
@@ -125,8 +126,8 @@ class PartBuilder {
         material, around, up,
         [&](float u, float v) {
           const Vec2f c = turn(1.0f - u), p = profile(v);
-          return SurfacePoint{base + Vec3f{c.x * p.x, p.y, c.y * p.x}, {0, 1, 0}, {u * uv_scale.x, (1.0f - v) * uv_scale.y},
-                              color};
+          return SurfacePoint{
+              base + Vec3f{c.x * p.x, p.y, c.y * p.x}, {0, 1, 0}, {u * uv_scale.x, (1.0f - v) * uv_scale.y}, color};
         },
         Normals::kSmooth, poles);
   }
@@ -137,7 +138,8 @@ class PartBuilder {
   void tube(int material, int around, int along, float radius, Fn&& path, Vec3f side, bool loop, Vec2f uv_scale,
             Vec3f color = {1, 1, 1}) {
     const auto ring = [&](float t, float u, Vec3f& centre, Vec3f& out, Vec3f& tangent) {
-      const float h = 1.0f / 512.0f, t0 = loop ? t - h : std::max(0.0f, t - h), t1 = loop ? t + h : std::min(1.0f, t + h);
+      const float h = 1.0f / 512.0f, t0 = loop ? t - h : std::max(0.0f, t - h),
+                  t1 = loop ? t + h : std::min(1.0f, t + h);
       centre = path(t);
       tangent = normalize(path(t1) - path(t0));
       const Vec3f x = normalize(cross(tangent, side)), y = cross(tangent, x);

@@ -1,5 +1,5 @@
-// `pool`: Liu et al.'s swimming pool (2020, figures 10 to 13), as a villa's garden. This file has the plan: which parts,
-// how the triangles are shared out, materials, cameras. The parts are in pool_*.cpp.
+// `pool`: Liu et al.'s swimming pool (2020, figures 10 to 13), as a villa's garden. This file has the plan: which
+// parts, how the triangles are shared out, materials, cameras. The parts are in pool_*.cpp.
 #include <cmath>
 #include <string>
 
@@ -18,15 +18,18 @@ struct Copies {
 };
 constexpr Vec3f kColumnsAt[] = {{-9, kDeckY, -6.1f}, {-6, kDeckY, -6.1f}, {-3, kDeckY, -6.1f}, {0, kDeckY, -6.1f},
                                 {3, kDeckY, -6.1f},  {6, kDeckY, -6.1f},  {9, kDeckY, -6.1f}};
-constexpr Vec3f kLoungersAt[] = {{-3.4f, kDeckY, -4.3f}, {-2.0f, kDeckY, -4.3f}, {2.0f, kDeckY, -4.3f}, {3.4f, kDeckY, -4.3f}};
+constexpr Vec3f kLoungersAt[] = {
+    {-3.4f, kDeckY, -4.3f}, {-2.0f, kDeckY, -4.3f}, {2.0f, kDeckY, -4.3f}, {3.4f, kDeckY, -4.3f}};
 constexpr Vec3f kParasolsAt[] = {{-2.7f, kDeckY, -4.75f}, {2.7f, kDeckY, -4.75f}};
 constexpr Vec3f kPotsAt[] = {{-6.3f, kDeckY, -3.6f}, {6.3f, kDeckY, -3.6f}, {-6.3f, kDeckY, 3.6f}, {0, kDeckY, -5.2f}};
-constexpr Vec3f kCypressesAt[] = {{-12.6f, -0.1f, -7.2f}, {-12.9f, -0.1f, -3.4f}, {-12.5f, -0.1f, 0.6f}, {-12.8f, -0.1f, 4.4f},
-                                  {12.7f, -0.1f, -6.4f},  {12.9f, -0.1f, -1.2f},  {12.6f, -0.1f, 3.8f},  {-15.5f, -0.1f, -12.5f},
-                                  {-11.5f, -0.1f, -13.5f}, {11.8f, -0.1f, -13.0f}, {15.0f, -0.1f, -12.0f}};
-constexpr Vec3f kOlivesAt[] = {{-17, -0.1f, -3}, {-19.5f, -0.1f, 3}, {-22, -0.1f, -9}, {-16.5f, -0.1f, 8}, {-27, 0, -2},
-                               {-25, 0, 7},      {-31, 0, -13},     {-36, 0, 2},     {-40, 0.2f, -8},   {-9, -0.1f, -17},
-                               {1, -0.1f, -19},  {17, -0.1f, -5},   {19, -0.1f, 2},  {23, -0.1f, -11}};
+constexpr Vec3f kCypressesAt[] = {{-12.6f, -0.1f, -7.2f}, {-12.9f, -0.1f, -3.4f},  {-12.5f, -0.1f, 0.6f},
+                                  {-12.8f, -0.1f, 4.4f},  {12.7f, -0.1f, -6.4f},   {12.9f, -0.1f, -1.2f},
+                                  {12.6f, -0.1f, 3.8f},   {-15.5f, -0.1f, -12.5f}, {-11.5f, -0.1f, -13.5f},
+                                  {11.8f, -0.1f, -13.0f}, {15.0f, -0.1f, -12.0f}};
+constexpr Vec3f kOlivesAt[] = {{-17, -0.1f, -3}, {-19.5f, -0.1f, 3}, {-22, -0.1f, -9}, {-16.5f, -0.1f, 8},
+                               {-27, 0, -2},     {-25, 0, 7},        {-31, 0, -13},    {-36, 0, 2},
+                               {-40, 0.2f, -8},  {-9, -0.1f, -17},   {1, -0.1f, -19},  {17, -0.1f, -5},
+                               {19, -0.1f, 2},   {23, -0.1f, -11}};
 constexpr Vec3f kOnce[] = {{0, 0, 0}};
 
 template <std::size_t kN>
@@ -43,20 +46,31 @@ struct Part {
   double share;
   bool always;
 };
-constexpr Part kParts[] = {
-    {"basin", basin, at(kOnce), 20, true},          {"deck", deck, at(kOnce), 12, true},
-    {"steps", steps, at(kOnce), 4, true},           {"ball_1", ball<0>, at(kOnce), 3, true},
-    {"ring_1", ring<0>, at(kOnce), 3.5, false},      {"coping", coping, at(kOnce), 2, false},
-    {"ring_2", ring<1>, at(kOnce), 3.5, false},     {"ball_3", ball<2>, at(kOnce), 2.5, false},
-    {"column", column, at(kColumnsAt), 7, false},   {"arcade", arcade, at(kOnce), 4, false},
-    {"roof", roof, at(kOnce), 8, false},            {"house", house, at(kOnce), 2, false},
-    {"ladder", ladder, at(kOnce), 3, false},        {"ball_2", ball<1>, at(kOnce), 2.5, false},
-    {"ring_3", ring<2>, at(kOnce), 3, false},       {"ring_4", ring<3>, at(kOnce), 1.5, false},
-    {"garden_walls", garden_walls, at(kOnce), 0.5, false}, {"pot", pot, at(kPotsAt), 6, false},
-    {"cypress", cypress, at(kCypressesAt), 9, false}, {"hedges", hedges, at(kOnce), 5, false},
-    {"olive", olive, at(kOlivesAt), 5, false},      {"blossoms", blossoms, at(kOnce), 5, false},
-    {"parasol", parasol, at(kParasolsAt), 3, false}, {"lounger", lounger, at(kLoungersAt), 4, false},
-    {"ball_4", ball<3>, at(kOnce), 2, false}};
+constexpr Part kParts[] = {{"basin", basin, at(kOnce), 20, true},
+                           {"deck", deck, at(kOnce), 12, true},
+                           {"steps", steps, at(kOnce), 4, true},
+                           {"ball_1", ball<0>, at(kOnce), 3, true},
+                           {"ring_1", ring<0>, at(kOnce), 3.5, false},
+                           {"coping", coping, at(kOnce), 2, false},
+                           {"ring_2", ring<1>, at(kOnce), 3.5, false},
+                           {"ball_3", ball<2>, at(kOnce), 2.5, false},
+                           {"column", column, at(kColumnsAt), 7, false},
+                           {"arcade", arcade, at(kOnce), 4, false},
+                           {"roof", roof, at(kOnce), 8, false},
+                           {"house", house, at(kOnce), 2, false},
+                           {"ladder", ladder, at(kOnce), 3, false},
+                           {"ball_2", ball<1>, at(kOnce), 2.5, false},
+                           {"ring_3", ring<2>, at(kOnce), 3, false},
+                           {"ring_4", ring<3>, at(kOnce), 1.5, false},
+                           {"garden_walls", garden_walls, at(kOnce), 0.5, false},
+                           {"pot", pot, at(kPotsAt), 6, false},
+                           {"cypress", cypress, at(kCypressesAt), 9, false},
+                           {"hedges", hedges, at(kOnce), 5, false},
+                           {"olive", olive, at(kOlivesAt), 5, false},
+                           {"blossoms", blossoms, at(kOnce), 5, false},
+                           {"parasol", parasol, at(kParasolsAt), 3, false},
+                           {"lounger", lounger, at(kLoungersAt), 4, false},
+                           {"ball_4", ball<3>, at(kOnce), 2, false}};
 constexpr std::size_t kPartCount = std::size(kParts);
 constexpr double kHillsShare = 10;
 
@@ -164,7 +178,9 @@ Materials make_materials() {
     m.materials[which].base_color_texture = static_cast<std::int32_t>(m.textures.size());
     m.textures.push_back(std::move(texture));
   };
-  const auto same = [&](Mat which, Mat as) { m.materials[which].base_color_texture = m.materials[as].base_color_texture; };
+  const auto same = [&](Mat which, Mat as) {
+    m.materials[which].base_color_texture = m.materials[as].base_color_texture;
+  };
   const auto tint = [&](Mat which, float r, float g, float b) { m.materials[which].base_color = {r, g, b, 1}; };
   for (Material& material : m.materials) {
     material.metallic = 0;

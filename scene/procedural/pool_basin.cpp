@@ -12,20 +12,23 @@ struct Side {
   Vec3f along, out;
   float half_along, half_out;
 };
-constexpr std::array<Side, 4> kSides = {Side{{1, 0, 0}, {0, 0, -1}, kHalfX, kHalfZ}, Side{{-1, 0, 0}, {0, 0, 1}, kHalfX, kHalfZ},
-                                        Side{{0, 0, -1}, {-1, 0, 0}, kHalfZ, kHalfX}, Side{{0, 0, 1}, {1, 0, 0}, kHalfZ, kHalfX}};
+constexpr std::array<Side, 4> kSides = {
+    Side{{1, 0, 0}, {0, 0, -1}, kHalfX, kHalfZ}, Side{{-1, 0, 0}, {0, 0, 1}, kHalfX, kHalfZ},
+    Side{{0, 0, -1}, {-1, 0, 0}, kHalfZ, kHalfX}, Side{{0, 0, 1}, {1, 0, 0}, kHalfZ, kHalfX}};
 
 int segments(float from, float to, float step) {
   return std::max(1, static_cast<int>(std::floor((to - from) / step + 0.5f)));
 }
 
-// Cells between lines, each cut into steps of about `step`: neighbours share their border's vertices, so no crack opens.
+// Cells between lines, each cut into steps of about `step`: neighbours share their border's vertices, so no crack
+// opens.
 //   cell  void(float x0, float x1, int nx, float y0, float y1, int ny, size_t i, size_t j)
 template <std::size_t kX, std::size_t kY, class Fn>
 void for_each_cell(const std::array<float, kX>& xs, const std::array<float, kY>& ys, float step, Fn&& cell) {
   for (std::size_t j = 0; j + 1 < kY; ++j) {
     for (std::size_t i = 0; i + 1 < kX; ++i) {
-      cell(xs[i], xs[i + 1], segments(xs[i], xs[i + 1], step), ys[j], ys[j + 1], segments(ys[j], ys[j + 1], step), i, j);
+      cell(xs[i], xs[i + 1], segments(xs[i], xs[i + 1], step), ys[j], ys[j + 1], segments(ys[j], ys[j + 1], step), i,
+           j);
     }
   }
 }
@@ -58,9 +61,9 @@ Vec3f floor_shade(float x, float z) {
 }
 
 Vec3f wall_shade(float x, float y, float z) {
-  return Vec3f{0.97f, 1.0f, 1.0f} * (crease(y - floor_y(x), 0.5f, 0.28f) * crease(0.02f + kDeckY - y, 0.12f, 0.25f) *
-                                     crease(std::fabs(x) > kHalfX - 1e-3f ? kHalfZ - std::fabs(z) : kHalfX - std::fabs(x),
-                                            0.45f, 0.25f));
+  return Vec3f{0.97f, 1.0f, 1.0f} *
+         (crease(y - floor_y(x), 0.5f, 0.28f) * crease(0.02f + kDeckY - y, 0.12f, 0.25f) *
+          crease(std::fabs(x) > kHalfX - 1e-3f ? kHalfZ - std::fabs(z) : kHalfX - std::fabs(x), 0.45f, 0.25f));
 }
 
 void basin_floor(PartBuilder& b, float step, bool lanes) {
@@ -79,11 +82,12 @@ void basin_floor(PartBuilder& b, float step, bool lanes) {
   // Two lanes with a bar across the deep end of each, on the tiles' lattice of 0.1 m.
   constexpr std::array<float, 5> xs = {-kHalfX, -2.4f, 3.6f, 3.9f, kHalfX};
   constexpr std::array<float, 10> zs = {-kHalfZ, -1.7f, -1.3f, -1.0f, -0.6f, 0.6f, 1.0f, 1.3f, 1.7f, kHalfZ};
-  for_each_cell(xs, zs, step, [&](float x0, float x1, int nx, float z0, float z1, int nz, std::size_t i, std::size_t j) {
-    const bool line = (i == 1 || i == 2) && (j == 2 || j == 6);
-    const bool bar = i == 2 && ((j >= 1 && j <= 3) || (j >= 5 && j <= 7));
-    cell(x0, x1, nx, z0, z1, nz, line || bar ? kLane : kTiles);
-  });
+  for_each_cell(xs, zs, step,
+                [&](float x0, float x1, int nx, float z0, float z1, int nz, std::size_t i, std::size_t j) {
+                  const bool line = (i == 1 || i == 2) && (j == 2 || j == 6);
+                  const bool bar = i == 2 && ((j >= 1 && j <= 3) || (j >= 5 && j <= 7));
+                  cell(x0, x1, nx, z0, z1, nz, line || bar ? kLane : kTiles);
+                });
 }
 
 void basin_walls(PartBuilder& b, float step, bool lanes) {
@@ -191,13 +195,12 @@ void coping(PartBuilder& b, int level) {
 struct Blob {
   float x, z, half_x, half_z, soft, depth;
 };
-constexpr Blob kBlobs[] = {
-    {-3.4f, -4.3f, 0.30f, 0.90f, 0.25f, 0.55f}, {-2.0f, -4.3f, 0.30f, 0.90f, 0.25f, 0.55f},
-    {2.0f, -4.3f, 0.30f, 0.90f, 0.25f, 0.55f},  {3.4f, -4.3f, 0.30f, 0.90f, 0.25f, 0.55f},
-    {-2.7f, -4.4f, 0.2f, 0.2f, 1.6f, 0.30f},    {2.7f, -4.4f, 0.2f, 0.2f, 1.6f, 0.30f},
-    {-6.3f, -3.6f, 0.12f, 0.12f, 0.35f, 0.5f},  {6.3f, -3.6f, 0.12f, 0.12f, 0.35f, 0.5f},
-    {-6.3f, 3.6f, 0.12f, 0.12f, 0.35f, 0.5f},   {6.3f, 3.6f, 0.12f, 0.12f, 0.35f, 0.5f},
-    {0.0f, -5.2f, 0.12f, 0.12f, 0.35f, 0.5f},   {-3.1f, 3.5f, 0.03f, 0.03f, 0.25f, 0.55f}};
+constexpr Blob kBlobs[] = {{-3.4f, -4.3f, 0.30f, 0.90f, 0.25f, 0.55f}, {-2.0f, -4.3f, 0.30f, 0.90f, 0.25f, 0.55f},
+                           {2.0f, -4.3f, 0.30f, 0.90f, 0.25f, 0.55f},  {3.4f, -4.3f, 0.30f, 0.90f, 0.25f, 0.55f},
+                           {-2.7f, -4.4f, 0.2f, 0.2f, 1.6f, 0.30f},    {2.7f, -4.4f, 0.2f, 0.2f, 1.6f, 0.30f},
+                           {-6.3f, -3.6f, 0.12f, 0.12f, 0.35f, 0.5f},  {6.3f, -3.6f, 0.12f, 0.12f, 0.35f, 0.5f},
+                           {-6.3f, 3.6f, 0.12f, 0.12f, 0.35f, 0.5f},   {6.3f, 3.6f, 0.12f, 0.12f, 0.35f, 0.5f},
+                           {0.0f, -5.2f, 0.12f, 0.12f, 0.35f, 0.5f},   {-3.1f, 3.5f, 0.03f, 0.03f, 0.25f, 0.55f}};
 
 void deck(PartBuilder& b, int level) {
   constexpr std::array<float, 4> xs = {-kDeckX, -kHalfX - kCopingOut, kHalfX + kCopingOut, kDeckX};
@@ -205,7 +208,8 @@ void deck(PartBuilder& b, int level) {
   const auto shade = [](float x, float z) {
     float s = 1;
     for (const Blob& k : kBlobs) {
-      const float dx = std::max(0.0f, std::fabs(x - k.x) - k.half_x), dz = std::max(0.0f, std::fabs(z - k.z) - k.half_z);
+      const float dx = std::max(0.0f, std::fabs(x - k.x) - k.half_x),
+                  dz = std::max(0.0f, std::fabs(z - k.z) - k.half_z);
       s *= 1.0f - k.depth * smooth_step(k.soft, 0.0f, std::sqrt(dx * dx + dz * dz));
     }
     // The gallery behind the columns, and the foot of the garden walls.
@@ -213,13 +217,14 @@ void deck(PartBuilder& b, int level) {
     return s * crease(kDeckX - std::fabs(x), 0.35f, 0.35f);
   };
   const float step = 16.0f / static_cast<float>(level);
-  for_each_cell(xs, zs, step, [&](float x0, float x1, int nx, float z0, float z1, int nz, std::size_t i, std::size_t j) {
-    if (i == 1 && j == 1) return;
-    b.surface(kPavers, nx, nz, [&](float u, float v) {
-      const float x = mix(x0, x1, u), z = mix(z1, z0, v);
-      return SurfacePoint{{x, kDeckY, z}, {0, 1, 0}, {x / 2.4f, z / 2.4f}, Vec3f{1, 1, 1} * shade(x, z)};
-    });
-  });
+  for_each_cell(xs, zs, step,
+                [&](float x0, float x1, int nx, float z0, float z1, int nz, std::size_t i, std::size_t j) {
+                  if (i == 1 && j == 1) return;
+                  b.surface(kPavers, nx, nz, [&](float u, float v) {
+                    const float x = mix(x0, x1, u), z = mix(z1, z0, v);
+                    return SurfacePoint{{x, kDeckY, z}, {0, 1, 0}, {x / 2.4f, z / 2.4f}, Vec3f{1, 1, 1} * shade(x, z)};
+                  });
+                });
   if (level < 4) return;
   b.quad(kCoping, 1, 1, {-kDeckX, kDeckY - 0.3f, kDeckFront}, {2 * kDeckX, 0, 0}, {0, 0.3f, 0}, 0.6f);
 }

@@ -28,7 +28,9 @@ void leafy_ball(PartBuilder& b, int material, int level, Vec3f centre, float rad
         const float ring = v == 0.0f || v == 1.0f ? 0.0f : e.x;
         const Vec3f d{ring * a.x, v == 0.0f ? -1.0f : (v == 1.0f ? 1.0f : e.y), ring * a.y};
         const float bump = rough(d * radius + centre, 9.0f / std::sqrt(radius / 0.44f), 3, 201);
-        return SurfacePoint{centre + d * (radius * (1.0f + depth * (bump - 0.5f))), d, {u * 5.0f * radius, v * 2.5f * radius},
+        return SurfacePoint{centre + d * (radius * (1.0f + depth * (bump - 0.5f))),
+                            d,
+                            {u * 5.0f * radius, v * 2.5f * radius},
                             leaf_shade(bump, d.y)};
       },
       Normals::kSmooth, Poles::kBoth);

@@ -15,9 +15,10 @@ Vec2f column_profile(float t) {
   struct Knot {
     float t, radius, y;
   };
-  static constexpr Knot kKnots[] = {{0.00f, 0.225f, 0.14f}, {0.06f, 0.255f, 0.17f}, {0.12f, 0.255f, 0.21f}, {0.17f, 0.215f, 0.24f},
-                                    {0.19f, 0.205f, 0.27f}, {0.22f, 0.185f, 0.30f}, {0.45f, 0.186f, 1.00f}, {0.72f, 0.158f, 2.16f},
-                                    {0.75f, 0.178f, 2.18f}, {0.79f, 0.178f, 2.21f}, {0.82f, 0.160f, 2.23f}, {0.88f, 0.165f, 2.31f},
+  static constexpr Knot kKnots[] = {{0.00f, 0.225f, 0.14f}, {0.06f, 0.255f, 0.17f}, {0.12f, 0.255f, 0.21f},
+                                    {0.17f, 0.215f, 0.24f}, {0.19f, 0.205f, 0.27f}, {0.22f, 0.185f, 0.30f},
+                                    {0.45f, 0.186f, 1.00f}, {0.72f, 0.158f, 2.16f}, {0.75f, 0.178f, 2.18f},
+                                    {0.79f, 0.178f, 2.21f}, {0.82f, 0.160f, 2.23f}, {0.88f, 0.165f, 2.31f},
                                     {0.95f, 0.225f, 2.36f}, {1.00f, 0.235f, 2.39f}};
   constexpr int kCount = static_cast<int>(std::size(kKnots));
   int k = 0;
@@ -65,11 +66,13 @@ void arch(PartBuilder& b, int level, float x0) {
   });
   b.surface(kMarble, around, 1, [&](float u, float v) {
     const Vec2f p = on_arch(u, kArchRadius + kWide), n = turn(0.5f - 0.5f * u);
-    return SurfacePoint{{p.x, p.y, mix(kArcadeFront + kOut, kArcadeFront, v)}, {n.x, n.y, 0}, {u * 3.0f, v * 0.05f}, kWhite};
+    return SurfacePoint{
+        {p.x, p.y, mix(kArcadeFront + kOut, kArcadeFront, v)}, {n.x, n.y, 0}, {u * 3.0f, v * 0.05f}, kWhite};
   });
   b.surface(kMarble, around, 1, [&](float u, float v) {
     const Vec2f p = on_arch(u, kArchRadius), n = turn(0.5f - 0.5f * u);
-    return SurfacePoint{{p.x, p.y, mix(kArcadeFront, kArcadeFront + kOut, v)}, {-n.x, -n.y, 0}, {u * 3.0f, v * 0.05f}, kWhite};
+    return SurfacePoint{
+        {p.x, p.y, mix(kArcadeFront, kArcadeFront + kOut, v)}, {-n.x, -n.y, 0}, {u * 3.0f, v * 0.05f}, kWhite};
   });
 }
 
@@ -102,9 +105,11 @@ void column(PartBuilder& b, int level) {
 void arcade(PartBuilder& b, int level) {
   for (int bay = 0; bay < kBays; ++bay) arch(b, level, kLeft + kBay * static_cast<float>(bay));
   // Cornice, and the piers that close the ends.
-  b.box(kMarble, 1, {kLeft - 0.12f, kWallTop, kArcadeBack}, {kRight + 0.12f, kWallTop + 0.14f, kArcadeFront + 0.12f}, 1.2f);
+  b.box(kMarble, 1, {kLeft - 0.12f, kWallTop, kArcadeBack}, {kRight + 0.12f, kWallTop + 0.14f, kArcadeFront + 0.12f},
+        1.2f);
   if (level < 2) return;
-  b.box(kMarble, 1, {kLeft - 0.06f, kWallTop - 0.08f, kArcadeBack}, {kRight + 0.06f, kWallTop, kArcadeFront + 0.06f}, 1.2f);
+  b.box(kMarble, 1, {kLeft - 0.06f, kWallTop - 0.08f, kArcadeBack}, {kRight + 0.06f, kWallTop, kArcadeFront + 0.06f},
+        1.2f);
 }
 
 void house(PartBuilder& b, int level) {
@@ -114,10 +119,12 @@ void house(PartBuilder& b, int level) {
     const float shade = 0.66f - 0.22f * smooth_step(1.5f, kWallTop, y) - 0.12f * smooth_step(0.5f, kDeckY, y);
     return SurfacePoint{{x, y, kDeckBack}, {0, 0, 1}, {x / 3.0f, -y / 3.0f}, kWhite * shade};
   });
-  b.quad(kWood, 1, 1, {kLeft, kWallTop, kDeckBack}, {kRight - kLeft, 0, 0}, {0, 0, kArcadeBack - kDeckBack}, 1.2f, kWhite * 0.42f);
+  b.quad(kWood, 1, 1, {kLeft, kWallTop, kDeckBack}, {kRight - kLeft, 0, 0}, {0, 0, kArcadeBack - kDeckBack}, 1.2f,
+         kWhite * 0.42f);
   for (const float side : {-1.0f, 1.0f}) {
     const float inner = side * kRight, outer = side * (kRight + 0.35f);
-    b.box(kStucco, 1, {std::min(inner, outer), 0, kDeckBack - 0.4f}, {std::max(inner, outer), kWallTop, kArcadeFront}, 3.0f);
+    b.box(kStucco, 1, {std::min(inner, outer), 0, kDeckBack - 0.4f}, {std::max(inner, outer), kWallTop, kArcadeFront},
+          3.0f);
   }
   if (level < 2) return;
   for (int bay = 0; bay < kBays; ++bay) {
@@ -125,7 +132,8 @@ void house(PartBuilder& b, int level) {
     french_window(b, x);
     // Beams under the gallery's ceiling.
     for (const float dx : {-0.75f, 0.0f, 0.75f}) {
-      b.box(kWood, 1, {x + dx - 0.06f, kWallTop - 0.16f, kDeckBack}, {x + dx + 0.06f, kWallTop, kArcadeBack}, 1.2f, kWhite * 0.42f);
+      b.box(kWood, 1, {x + dx - 0.06f, kWallTop - 0.16f, kDeckBack}, {x + dx + 0.06f, kWallTop, kArcadeBack}, 1.2f,
+            kWhite * 0.42f);
     }
   }
 }
@@ -142,7 +150,8 @@ void roof(PartBuilder& b, int level) {
     const float hump = 4.0f * row * (1.0f - row);
     return 0.055f * hump + 0.02f * (1.0f - course);
   };
-  const float slope_length = std::sqrt((kEaveZ - kRidgeZ) * (kEaveZ - kRidgeZ) + (kRidgeY - kEaveY) * (kRidgeY - kEaveY));
+  const float slope_length =
+      std::sqrt((kEaveZ - kRidgeZ) * (kEaveZ - kRidgeZ) + (kRidgeY - kEaveY) * (kRidgeY - kEaveY));
   b.surface(
       kRoof, columns, std::max(1, level / 3),
       [&](float u, float v) {
@@ -151,9 +160,11 @@ void roof(PartBuilder& b, int level) {
         return SurfacePoint{p, {0, 1, 0}, {x / 1.2f, -v * slope_length / 1.2f}, kWhite};
       },
       Normals::kSmooth);
-  b.quad(kRoof, 1, 1, {kX, kEaveY, 2 * kRidgeZ - kEaveZ}, {-2 * kX, 0, 0}, {0, kRidgeY - kEaveY, kEaveZ - kRidgeZ}, 1.2f);
+  b.quad(kRoof, 1, 1, {kX, kEaveY, 2 * kRidgeZ - kEaveZ}, {-2 * kX, 0, 0}, {0, kRidgeY - kEaveY, kEaveZ - kRidgeZ},
+         1.2f);
   b.box(kWood, 1, {-kX, kEaveY - 0.10f, kEaveZ - 0.10f}, {kX, kEaveY + 0.01f, kEaveZ - 0.02f}, 1.2f, kWhite * 0.8f);
-  b.quad(kWood, 1, 1, {-kX, kEaveY - 0.01f, kArcadeFront}, {2 * kX, 0, 0}, {0, 0, kEaveZ - kArcadeFront}, 1.2f, kWhite * 0.5f);
+  b.quad(kWood, 1, 1, {-kX, kEaveY - 0.01f, kArcadeFront}, {2 * kX, 0, 0}, {0, 0, kEaveZ - kArcadeFront}, 1.2f,
+         kWhite * 0.5f);
   for (const float side : {-1.0f, 1.0f}) {
     const Vec3f eave{side * (kRight + 0.35f), kEaveY, kRidgeZ};
     b.surface(

@@ -18,8 +18,32 @@ inline constexpr int kBays = 6;
 inline float floor_y(float x) { return -mix(kShallow, kDeep, (x + kHalfX) / (2 * kHalfX)); }
 
 enum Mat : int {
-  kTiles, kLane, kBand, kCoping, kPavers, kStucco, kOchre, kRoof, kMarble, kWood, kShutter, kGardenWall, kGlass, kChrome, kBall, kRing,
-  kDiveRing, kCushion, kAwning, kTerracotta, kFoliage, kCypress, kOlive, kBlossom, kGrass, kMatCount
+  kTiles,
+  kLane,
+  kBand,
+  kCoping,
+  kPavers,
+  kStucco,
+  kOchre,
+  kRoof,
+  kMarble,
+  kWood,
+  kShutter,
+  kGardenWall,
+  kGlass,
+  kChrome,
+  kBall,
+  kRing,
+  kDiveRing,
+  kCushion,
+  kAwning,
+  kTerracotta,
+  kFoliage,
+  kCypress,
+  kOlive,
+  kBlossom,
+  kGrass,
+  kMatCount
 };
 
 Materials make_materials();
@@ -50,6 +74,6 @@ void hedges(PartBuilder& b, int level);
 void cypress(PartBuilder& b, int level);  // at the origin
 void olive(PartBuilder& b, int level);    // a tree at the origin
 void blossoms(PartBuilder& b, int level);
-void hills(PartBuilder& b, int level);    // level is about the quads
+void hills(PartBuilder& b, int level);  // level is about the quads
 
 }  // namespace shoal::pool

@@ -50,7 +50,9 @@ void rounded_box(PartBuilder& b, int material, int n, Vec3f centre, Vec3f half, 
         const Vec3f d{ring * a.x, pole ? (v == 0.0f ? -1.0f : 1.0f) : e.y, ring * a.y};
         const Vec3f p{d.x * r + pull(d.x, core.x), d.y * r + pull(d.y, core.y), d.z * r + pull(d.z, core.z)};
         const Vec3f n_world = f.x * d.x + f.y * d.y + f.z * d.z;
-        return SurfacePoint{centre + f.x * p.x + f.y * p.y + f.z * p.z, normalize(n_world), {p.x / 1.2f, p.z / 1.2f},
+        return SurfacePoint{centre + f.x * p.x + f.y * p.y + f.z * p.z,
+                            normalize(n_world),
+                            {p.x / 1.2f, p.z / 1.2f},
                             tint * (0.75f + 0.25f * clamp01(0.5f + 0.8f * n_world.y))};
       },
       Normals::kGiven, Poles::kBoth);
@@ -71,7 +73,8 @@ void ball(PartBuilder& b, int level) {
         const Vec2f a = turn(1.0f - u), e = turn(0.5f * v - 0.25f);
         const bool pole = v == 0.0f || v == 1.0f;
         const float ring = pole ? 0.0f : e.x;
-        const Vec3f n = normalize(f.x * (ring * a.x) + f.y * (pole ? (v == 0.0f ? -1.0f : 1.0f) : e.y) + f.z * (ring * a.y));
+        const Vec3f n =
+            normalize(f.x * (ring * a.x) + f.y * (pole ? (v == 0.0f ? -1.0f : 1.0f) : e.y) + f.z * (ring * a.y));
         return SurfacePoint{centre + n * p.radius, n, {u, 1.0f - v}, under_shade(n)};
       },
       Normals::kGiven, Poles::kBoth);
@@ -115,8 +118,8 @@ void ladder(PartBuilder& b, int level) {
     b.tube(kChrome, level + 2, 4 + 4 * level, 0.021f, path, {1, 0, 0}, false, {1, 8});
   }
   for (const float y : {-0.24f, -0.52f, -0.80f, -1.08f}) {
-    rounded_box(b, kChrome, std::max(1, level / 4), {kX, y, kFront + 0.03f}, {kHalfWidth, 0.015f, 0.05f}, 0.012f, kUpright,
-                {1, 1, 1});
+    rounded_box(b, kChrome, std::max(1, level / 4), {kX, y, kFront + 0.03f}, {kHalfWidth, 0.015f, 0.05f}, 0.012f,
+                kUpright, {1, 1, 1});
   }
 }
 
@@ -149,14 +152,25 @@ void parasol(PartBuilder& b, int level) {
   };
   b.surface(
       kAwning, around, up,
-      [&](float u, float v) { return SurfacePoint{cloth(u, 1.0f - v, 0), {0, 1, 0}, {u, v}, {1, 1, 1}}; }, Normals::kSmooth,
-      Poles::kV1);
+      [&](float u, float v) {
+        return SurfacePoint{cloth(u, 1.0f - v, 0), {0, 1, 0}, {u, v}, {1, 1, 1}};
+      },
+      Normals::kSmooth, Poles::kV1);
   b.surface(
       kAwning, around, up,
-      [&](float u, float v) { return SurfacePoint{cloth(u, v, 0.012f), {0, -1, 0}, {u, 1.0f - v}, {0.6f, 0.6f, 0.6f}}; },
+      [&](float u, float v) {
+        return SurfacePoint{cloth(u, v, 0.012f), {0, -1, 0}, {u, 1.0f - v}, {0.6f, 0.6f, 0.6f}};
+      },
       Normals::kSmooth, Poles::kV0);
-  b.tube(kWood, level + 3, 2, 0.03f, [&](float t) { return Vec3f{0, mix(0.0f, kTopY + 0.12f, t), 0}; }, {1, 0, 0}, false, {1, 2});
-  b.lathe(kMarble, level + 5, 2, {0, 0, 0}, [](float t) { return Vec2f{t < 1 ? 0.26f : 0.0f, t > 0 ? 0.09f : 0.0f}; },
+  b.tube(kWood, level + 3, 2, 0.03f,
+         [&](float t) {
+           return Vec3f{0, mix(0.0f, kTopY + 0.12f, t), 0};
+         },
+         {1, 0, 0}, false, {1, 2});
+  b.lathe(kMarble, level + 5, 2, {0, 0, 0},
+          [](float t) {
+            return Vec2f{t < 1 ? 0.26f : 0.0f, t > 0 ? 0.09f : 0.0f};
+          },
           Poles::kV1, {1, 1});
 }
 

@@ -53,7 +53,8 @@ void add_sun(Scene& scene, Vec3f to_sun, Vec3f color, float intensity) {
 
 const std::vector<ProceduralScene>& procedural_scenes() {
   static const std::vector<ProceduralScene> scenes = {
-      {"pool", "a villa's swimming pool: tiles, steps, ladder, balls and rings, half and fully under water", make_pool, 128000},
+      {"pool", "a villa's swimming pool: tiles, steps, ladder, balls and rings, half and fully under water", make_pool,
+       128000},
       {"box", "a small open basin with boxes and balls through the water, for tests", make_box, 1000}};
   return scenes;
 }

@@ -77,8 +77,8 @@ Texture make_mosaic(int size, const std::array<Vec3f, 3>& shades, Vec3f grout, s
 }  // namespace
 
 std::uint32_t hash_lattice(std::int32_t x, std::int32_t y, std::uint32_t seed) {
-  std::uint32_t h = static_cast<std::uint32_t>(x) * 0x9E3779B1u + static_cast<std::uint32_t>(y) * 0x85EBCA77u +
-                    seed * 0xC2B2AE3Du;
+  std::uint32_t h =
+      static_cast<std::uint32_t>(x) * 0x9E3779B1u + static_cast<std::uint32_t>(y) * 0x85EBCA77u + seed * 0xC2B2AE3Du;
   h = (h ^ (h >> 16)) * 0x7FEB352Du;
   h = (h ^ (h >> 15)) * 0x846CA68Bu;
   return h ^ (h >> 16);
@@ -86,7 +86,9 @@ std::uint32_t hash_lattice(std::int32_t x, std::int32_t y, std::uint32_t seed) {
 
 float value_noise(float x, float y, std::int32_t period, std::uint32_t seed) {
   const float fx = std::floor(x), fy = std::floor(y);
-  const auto wrap = [period](int i) { return period > 0 && (i < 0 || i >= period) ? ((i % period) + period) % period : i; };
+  const auto wrap = [period](int i) {
+    return period > 0 && (i < 0 || i >= period) ? ((i % period) + period) % period : i;
+  };
   const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
   const int x0 = wrap(ix), x1 = wrap(ix + 1), y0 = wrap(iy), y1 = wrap(iy + 1);
   const float sx = ramp(0, 1, x - fx), sy = ramp(0, 1, y - fy);
@@ -126,11 +128,20 @@ Texture make_waterline_tiles() {
     const float shade = 0.85f + 0.3f * unit_hash(t.column, t.row, 31);
     Vec3f c{0.06f, 0.16f, 0.40f};
     switch (kMotif[t.row % 10][t.column % 10]) {
-      case 'w': c = {0.88f, 0.93f, 0.93f}; break;
-      case 'b': c = {0.14f, 0.42f, 0.72f}; break;
-      case 't': c = {0.25f, 0.70f, 0.78f}; break;
-      case 'g': c = {0.95f, 0.78f, 0.38f}; break;
-      default: break;
+      case 'w':
+        c = {0.88f, 0.93f, 0.93f};
+        break;
+      case 'b':
+        c = {0.14f, 0.42f, 0.72f};
+        break;
+      case 't':
+        c = {0.25f, 0.70f, 0.78f};
+        break;
+      case 'g':
+        c = {0.95f, 0.78f, 0.38f};
+        break;
+      default:
+        break;
     }
     return lerp(Vec3f{0.70f, 0.78f, 0.80f}, c * shade, ramp(0.06f, 0.10f, t.edge));
   });
@@ -166,7 +177,8 @@ Texture make_coping() {
 
 Texture make_stucco() {
   return paint_texture(512, 512, [](float u, float v) {
-    const float cloud = fractal_noise(u * 4.0f, v * 4.0f, 4, 4, 61), grain = fractal_noise(u * 96.0f, v * 96.0f, 96, 2, 62);
+    const float cloud = fractal_noise(u * 4.0f, v * 4.0f, 4, 4, 61),
+                grain = fractal_noise(u * 96.0f, v * 96.0f, 96, 2, 62);
     const float trowel = fractal_noise(u * 10.0f, v * 24.0f, 0, 1, 63);
     const float fade = ramp(0.0f, 0.12f, std::min(std::min(u, 1.0f - u), std::min(v, 1.0f - v)));
     const float l = 0.93f + 0.08f * (cloud - 0.5f) + 0.07f * (grain - 0.5f) + 0.03f * (trowel - 0.5f) * fade;
@@ -193,7 +205,8 @@ Texture make_planks() {
     const float grain = fractal_noise(u * 4.0f, v * 96.0f + tone * 31.0f, 0, 1, 82);
     const float fibre = fractal_noise(u * 8.0f, v * 256.0f, 8, 2, 83);
     const float seam = ramp(0.0f, 0.06f, std::min(u, 1.0f - u));
-    Vec3f c = lerp(Vec3f{0.56f, 0.38f, 0.24f}, Vec3f{0.72f, 0.53f, 0.35f}, 0.5f * tone + 0.5f * lerp(0.5f, grain, seam));
+    Vec3f c =
+        lerp(Vec3f{0.56f, 0.38f, 0.24f}, Vec3f{0.72f, 0.53f, 0.35f}, 0.5f * tone + 0.5f * lerp(0.5f, grain, seam));
     c = c * (0.9f + 0.2f * fibre);
     return c * lerp(0.35f, 1.0f, ramp(0.02f, 0.07f, std::min(t.y, 1.0f - t.y)));
   });
@@ -201,7 +214,8 @@ Texture make_planks() {
 
 Texture make_foliage() {
   return paint_texture(512, 512, [](float u, float v) {
-    const float big = fractal_noise(u * 10.0f, v * 10.0f, 10, 3, 91), leaf = fractal_noise(u * 56.0f, v * 56.0f, 56, 3, 92);
+    const float big = fractal_noise(u * 10.0f, v * 10.0f, 10, 3, 91),
+                leaf = fractal_noise(u * 56.0f, v * 56.0f, 56, 3, 92);
     const float lit = ramp(0.32f, 0.72f, 0.35f * big + 0.65f * leaf);
     const Vec3f c = lerp(Vec3f{0.34f, 0.36f, 0.36f}, Vec3f{0.88f, 0.88f, 0.82f}, lit);
     return lerp(c, Vec3f{1.0f, 0.99f, 0.90f}, 0.7f * ramp(0.62f, 0.85f, leaf));
@@ -210,7 +224,8 @@ Texture make_foliage() {
 
 Texture make_grass() {
   return paint_texture(512, 512, [](float u, float v) {
-    const float patch = fractal_noise(u * 6.0f, v * 6.0f, 6, 4, 101), blade = fractal_noise(u * 96.0f, v * 96.0f, 96, 2, 102);
+    const float patch = fractal_noise(u * 6.0f, v * 6.0f, 6, 4, 101),
+                blade = fractal_noise(u * 96.0f, v * 96.0f, 96, 2, 102);
     const Vec3f c = lerp(Vec3f{0.80f, 0.84f, 0.80f}, Vec3f{1.0f, 0.98f, 0.90f}, patch);
     return c * (0.78f + 0.28f * blade);
   });

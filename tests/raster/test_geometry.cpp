@@ -44,7 +44,8 @@ TestMesh random_mesh(std::uint32_t vertices, std::uint32_t triangles, std::uint3
   TestMesh m;
   for (std::uint32_t i = 0; i < vertices; ++i) {
     const float f = static_cast<float>(i);
-    m.positions.push_back({f, static_cast<float>(next_random(seed) % 1000), static_cast<float>(next_random(seed) % 1000)});
+    m.positions.push_back(
+        {f, static_cast<float>(next_random(seed) % 1000), static_cast<float>(next_random(seed) % 1000)});
     m.normals.push_back({0, 0, 1});
     m.uvs.push_back({f, -f});
   }
@@ -73,7 +74,8 @@ void check_mesh(const Geometry& g, const TestMesh& mesh, std::uint32_t first) {
     double longest = 0;
     int next_local = 0;
     for (std::uint32_t t = 0; t < c.triangle_count; ++t) {
-      const std::uint8_t local[3] = {g.corner0[c.first_index + t], g.corner1[c.first_index + t], g.corner2[c.first_index + t]};
+      const std::uint8_t local[3] = {g.corner0[c.first_index + t], g.corner1[c.first_index + t],
+                                     g.corner2[c.first_index + t]};
       Vec3f p[3];
       for (std::size_t k = 0; k < 3; ++k) {
         REQUIRE(local[k] < c.vertex_count);
@@ -102,7 +104,8 @@ void check_mesh(const Geometry& g, const TestMesh& mesh, std::uint32_t first) {
       REQUIRE(int(g.corner0[c.first_index + t] | g.corner1[c.first_index + t] | g.corner2[c.first_index + t]) == 0);
     }
     for (std::uint32_t v = c.vertex_count; v % 16 != 0; ++v) {
-      REQUIRE(equal(g.vertices[c.first_vertex + v].position_world, g.vertices[c.first_vertex + c.vertex_count - 1u].position_world));
+      REQUIRE(equal(g.vertices[c.first_vertex + v].position_world,
+                    g.vertices[c.first_vertex + c.vertex_count - 1u].position_world));
     }
     next += c.triangle_count;
   }

@@ -47,7 +47,8 @@ Mesh square_mesh(float y = 0) {
 
 Vec3f face_normal(const Geometry& g, std::size_t triangle) {
   const auto& v = g.triangles[triangle].vertex;
-  const Vec3f a = g.vertices[v[0]].position_world, b = g.vertices[v[1]].position_world, c = g.vertices[v[2]].position_world;
+  const Vec3f a = g.vertices[v[0]].position_world, b = g.vertices[v[1]].position_world,
+              c = g.vertices[v[2]].position_world;
   return cross(b - a, c - a);
 }
 

@@ -29,7 +29,8 @@ std::uint64_t count_triangles(const Scene& scene) {
   std::uint64_t count = 0;
   for (const Node& node : scene.nodes) {
     if (node.mesh == kNoIndex) continue;
-    for (const MeshPrimitive& p : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) count += p.indices.size() / 3;
+    for (const MeshPrimitive& p : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+      count += p.indices.size() / 3;
   }
   return count;
 }
@@ -87,9 +88,12 @@ bool is_closed(const Mesh& mesh) {
       for (std::size_t k = 0; k < 3; ++k) {
         // + 0: minus zero is zero
         const Vec3f a = p.positions[p.indices[i + k]], b = p.positions[p.indices[i + (k + 1) % 3]];
-        const Key forth{a.x + 0, a.y + 0, a.z + 0, b.x + 0, b.y + 0, b.z + 0}, back{b.x + 0, b.y + 0, b.z + 0, a.x + 0, a.y + 0, a.z + 0};
-        if (forth < back) ++edges[forth];
-        else --edges[back];
+        const Key forth{a.x + 0, a.y + 0, a.z + 0, b.x + 0, b.y + 0, b.z + 0},
+            back{b.x + 0, b.y + 0, b.z + 0, a.x + 0, a.y + 0, a.z + 0};
+        if (forth < back)
+          ++edges[forth];
+        else
+          --edges[back];
       }
     }
   }
@@ -101,8 +105,10 @@ double signed_volume(const Mesh& mesh) {
   for (const MeshPrimitive& p : mesh.primitives) {
     for (std::size_t i = 0; i < p.indices.size(); i += 3) {
       const Vec3f a = p.positions[p.indices[i]], b = p.positions[p.indices[i + 1]], c = p.positions[p.indices[i + 2]];
-      volume += (double(a.x) * (double(b.y) * c.z - double(b.z) * c.y) + double(a.y) * (double(b.z) * c.x - double(b.x) * c.z) +
-                 double(a.z) * (double(b.x) * c.y - double(b.y) * c.x)) / 6.0;
+      volume += (double(a.x) * (double(b.y) * c.z - double(b.z) * c.y) +
+                 double(a.y) * (double(b.z) * c.x - double(b.x) * c.z) +
+                 double(a.z) * (double(b.x) * c.y - double(b.y) * c.x)) /
+                6.0;
     }
   }
   return volume;
@@ -139,7 +145,8 @@ std::string digest(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("triangle counts are met within a tenth", "[procedural]") {
-  std::vector<std::uint64_t> counts = {100, 101, 103, 107, 113, 127, 139, 150, 163, 177, 191, 223, 251, 307, 401, 555, 777};
+  std::vector<std::uint64_t> counts = {100, 101, 103, 107, 113, 127, 139, 150, 163,
+                                       177, 191, 223, 251, 307, 401, 555, 777};
   for (double n = 1000; n < 1.3e6; n *= 2.37) counts.push_back(static_cast<std::uint64_t>(n));
   counts.push_back(128000);
   for (const char* name : {"pool", "box"}) {
@@ -171,8 +178,10 @@ TEST_CASE("solids are closed and wound outwards", "[procedural]") {
   // Within a few per cent of the sphere and the torus that they are.
   REQUIRE(find_mesh(scene, "ball_1"));
   REQUIRE(find_mesh(scene, "ring_1"));
-  CHECK(signed_volume(*find_mesh(scene, "ball_1")) == Approx(4.0 / 3.0 * 3.14159265 * 0.27 * 0.27 * 0.27).epsilon(0.03));
-  CHECK(signed_volume(*find_mesh(scene, "ring_1")) == Approx(2 * 3.14159265 * 3.14159265 * 0.42 * 0.125 * 0.125).epsilon(0.03));
+  CHECK(signed_volume(*find_mesh(scene, "ball_1")) ==
+        Approx(4.0 / 3.0 * 3.14159265 * 0.27 * 0.27 * 0.27).epsilon(0.03));
+  CHECK(signed_volume(*find_mesh(scene, "ring_1")) ==
+        Approx(2 * 3.14159265 * 3.14159265 * 0.42 * 0.125 * 0.125).epsilon(0.03));
 }
 
 TEST_CASE("the basin is coarse or fine, without a crack", "[procedural]") {
