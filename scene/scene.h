@@ -13,7 +13,7 @@
 
 namespace shoal {
 
-inline constexpr std::int32_t kNone = -1;
+inline constexpr std::int32_t kNoIndex = -1;
 
 // A triangle list in the mesh's local space; one material.
 struct MeshPrimitive {
@@ -55,9 +55,9 @@ struct LightSpec {
 
 struct Node {
   std::string name;
-  std::int32_t parent = kNone;
+  std::int32_t parent = kNoIndex;
   Mat4 world_from_local = kIdentity4;
-  std::int32_t mesh = kNone, camera = kNone, light = kNone, water = kNone;
+  std::int32_t mesh = kNoIndex, camera = kNoIndex, light = kNoIndex, water = kNoIndex;
 };
 
 struct Scene {
