@@ -180,6 +180,46 @@ TEST_CASE("clip: a triangle cut by a world plane keeps its area on the kept side
   CHECK(worst < 3e-5);
 }
 
+TEST_CASE("clip: two triangles that share an edge get the same bits where it is cut") {
+  TestRandom random(16);
+  long shared = 0, different = 0;
+  const auto same = [](const ClipVertex<float>& a, const ClipVertex<float>& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
+  };
+  for (int round = 0; round < 20000; ++round) {
+    ClipVertex<float> v[4];
+    const double reach = std::pow(10.0, random.real(3, 6));
+    for (auto& c : v) c = {random.in(-reach, reach), random.in(-reach, reach), 0.05f, random.in(-5, 20)};
+    const Polygon<ClipVertex<float>> p = clip_to_guard(v[0], v[1], v[2]), q = clip_to_guard(v[1], v[0], v[3]);
+    // New corners of p on the shared edge, by their distance from it in (x, y, w) scaled to the unit cube.
+    const auto scaled = [&](const ClipVertex<float>& c) {
+      return Vec3d{static_cast<double>(c.x) / reach, static_cast<double>(c.y) / reach, static_cast<double>(c.w) / 20};
+    };
+    const Vec3d a = scaled(v[0]), edge = scaled(v[1]) - a;
+    for (int i = 0; i < p.count; ++i) {
+      const Vec3d r = scaled(p.vertex[i]) - a;
+      const double along = dot(r, edge) / dot(edge, edge);
+      const Vec3d off = r - edge * along;
+      if (along < 0.01 || along > 0.99 || std::sqrt(dot(off, off)) > 1e-6) continue;
+      ++shared;
+      different += std::none_of(q.vertex, q.vertex + q.count, [&](const auto& c) { return same(c, p.vertex[i]); });
+    }
+    Vec3f w[4];
+    for (Vec3f& c : w) c = {random.in(-5, 5), random.in(-5, 5), random.in(-5, 5)};
+    const Plane plane{{0.6f, 0.0f, 0.8f}, random.in(-3, 3)};
+    const Polygon<Vec3f> s = clip_to_plane(w[0], w[1], w[2], plane), t = clip_to_plane(w[1], w[0], w[3], plane);
+    const bool cut = (plane_distance(plane, w[0]) >= 0) != (plane_distance(plane, w[1]) >= 0);
+    int equal = 0;
+    for (int i = 0; i < s.count; ++i)
+      for (int j = 0; j < t.count; ++j) equal += s.vertex[i].x == t.vertex[j].x && s.vertex[i].y == t.vertex[j].y && s.vertex[i].z == t.vertex[j].z;
+    shared += cut;
+    different += cut && equal != 2;  // the edge's inner end, and the cut
+  }
+  CAPTURE(shared, different);
+  CHECK(shared > 10000);
+  CHECK(different == 0);
+}
+
 TEST_CASE("clip: coverage equals the exact oracle on the clipped and snapped vertices") {
   TestRandom random(13);
   for (int round = 0; round < 30; ++round) {
