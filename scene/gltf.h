@@ -40,8 +40,9 @@ struct LoadLimits {
 // trusted (tests/scene/test_gltf_bad.cpp).
 // Source: The Khronos Group, glTF 2.0 specification (2021); water and background: extras.
 // `extras.water` of a node (or flat keys such as `water_ior`): docs/scenes.md. `extras.background` of the scene (or of
-// the asset): "sky", [r, g, b] linear, or {"type": "sky", "zenith", "horizon", "ground", "sun": [r, g, b], "to_sun": unit}.
-// Differs: a primitive restart index, a count of indices that makes no whole triangle, and misaligned data are errors.
+// the asset): "sky", [r, g, b] linear, or {"type": "sky", "zenith", "horizon", "ground", "sun": [r, g, b], "to_sun":
+// unit}. Differs: a primitive restart index, a count of indices that makes no whole triangle, and misaligned data are
+// errors.
 Scene load_gltf(const std::string& path, const LoadLimits& limits = {});
 
 }  // namespace shoal
