@@ -38,11 +38,11 @@ struct LoadLimits {
 // draw yet is named in Scene::warnings, one line a kind, without the path. Scene::name is the path.
 // Throws Error, one line that begins with the path, for everything that cannot be read as meant: no byte of a file is
 // trusted (tests/scene/test_gltf_bad.cpp).
-// Source: The Khronos Group, glTF 2.0 specification (2021); water and background: extras.
-// `extras.water` of a node (or flat keys such as `water_ior`): docs/scenes.md. `extras.background` of the scene (or of
-// the asset): "sky", [r, g, b] linear, or {"type": "sky", "zenith", "horizon", "ground", "sun": [r, g, b], "to_sun":
-// unit}. Differs: a primitive restart index, a count of indices that makes no whole triangle, and misaligned data are
-// errors.
+// Water: `extras.water` of a node, or flat keys such as `water_ior` (docs/scenes.md).
+// Background: `extras.background` of the scene or the asset: "sky", or [r, g, b], or {"type": "sky"} with any of
+// zenith, horizon, ground, sun ([r, g, b], linear) and to_sun (a unit vector).
+// Source: The Khronos Group, glTF 2.0 specification (2021).
+// Differs: a primitive restart index, a count of indices that makes no whole triangle, and misaligned data are errors.
 Scene load_gltf(const std::string& path, const LoadLimits& limits = {});
 
 }  // namespace shoal
