@@ -23,7 +23,7 @@
 
 namespace shoal {
 
-inline constexpr int kMaxSubdivisionLevel = 10;
+inline constexpr int kMaxSubdivisionLevel = 16;
 
 // A world-space triangle waiting for the tessellator.
 struct WorldTriangle {
