@@ -42,7 +42,7 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
     clock.lap("refracted.visibility");
     if (digests != nullptr) digests->refracted(f), clock.skip();
 
-    if (water.optics.eye_below) {
+    if (mirrors_scene(water.optics)) {
       const WaterPass mirrored = mirrored_pass(water);
       pool.for_each(items, [&](std::size_t item, int) { kernels.mirrored_front_end(f, mirrored, item); });
       clock.lap("reflected.front_end");

@@ -21,7 +21,7 @@ namespace shoal {
 // What the narrow phase found at a water pixel: the triangle that its refracted (or mirrored) ray shows.
 struct HitBuffers {
   AlignedArray<std::int32_t> refracted_id;  // kNoId: the ray leaves the scene
-  AlignedArray<std::int32_t> mirrored_id;   // written where the eye is under the plane
+  AlignedArray<std::int32_t> mirrored_id;   // written where the surface mirrors the scene (mirrors_scene)
   void resize(const FrameGrid& g) {
     refracted_id.resize(g.pixel_slots());
     mirrored_id.resize(g.pixel_slots());
@@ -64,6 +64,12 @@ struct WaterPass {
   PassSettings pass;
   bool mirrored = false;
 };
+
+// Does the surface mirror the scene on the eye's own side? It does to an eye in the water, and to one on the denser side
+// (ior below 1), where reflection can be total; elsewhere it reflects the background (docs/decisions).
+SHOAL_INLINE bool mirrors_scene(const BroadPhase& optics) {
+  return optics.eye_below || (!optics.eye_is_thin && !optics.path.identity);
+}
 
 // Everything that a kernel may read or write in a frame. The renderer owns it and keeps its memory between frames.
 struct FrameData {

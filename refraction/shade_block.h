@@ -102,10 +102,10 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
                        shade_detail::capture_hits(f, block, p, virtual_position(water.optics, p), shown, HitKind::kSurface, hit);
                      });
   }
-  if (eye_below) {
+  if (mirrors_scene(water.optics)) {
     // Internal reflection always sees the scene (docs/decisions): under water a mirror of the sky would be wrong.
     const WideI shown = WideI::load(f.hits.mirrored_id.data() + block.offset);
-    reflected = look(f, water, r.reflected, r.reflected_differential, shown, lanes, true,
+    reflected = look(f, water, r.reflected, r.reflected_differential, shown, lanes, eye_below,
                      [&](const ShadedLanes& s, WideM hit) SHOAL_LAMBDA {
                        if (!f.capture) return;
                        const WideM total = hit & !at.transmitted;
