@@ -1,0 +1,190 @@
+// What every pixel must show, by brute force in double: its ray against every triangle, Snell's law at the flat water,
+// the refracted (or totally reflected) ray against every triangle again. No acceleration, no clipping, no raster.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "refraction/renderer.h"
+
+namespace shoal_test {
+
+using namespace shoal;
+
+inline constexpr std::uint32_t kNothing = 0xFFFFFFFFu;
+
+inline Vec3d as_double(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+inline double norm_of(Vec3d v) { return std::sqrt(dot(v, v)); }
+inline Vec3d unit_of(Vec3d v) { return v / norm_of(v); }
+
+// One pixel as the AOVs report it.
+struct OraclePixel {
+  bool water = false;
+  double depth_m = std::numeric_limits<double>::infinity();  // along the view axis
+  std::uint32_t triangle = kNothing;
+  Vec3d position{0, 0, 0};      // of what shows first, the water's surface included
+  HitKind hit_kind = HitKind::kNoWater;
+  std::uint32_t hit_id = kNothing;
+  Vec3d hit_position{0, 0, 0};
+  double path_m = 0;            // from the eye to the hit, or to what shows first
+  // What magnifies rounding: the least cosine between a ray and what it meets (the water's far side included), times the
+  // sine of the hit triangle's first corner; of what shows first, and of the hit.
+  double steepness = 1, hit_steepness = 1;
+
+  bool shows_the_same(const OraclePixel& o) const {
+    return water == o.water && triangle == o.triangle && hit_kind == o.hit_kind && hit_id == o.hit_id;
+  }
+};
+
+class RefractionOracle {
+ public:
+  //   bend  false: rays go straight through the water (method none)
+  RefractionOracle(const RenderScene& scene, bool bend) : scene_(scene), bend_(bend) {
+    const Geometry& g = scene.geometry;
+    for (const Drawable& d : g.drawables) {
+      if (!d.drawn) continue;
+      for (std::uint32_t i = 0; i < d.triangle_count; ++i) {
+        const Geometry::TriangleRecord& t = g.triangles[d.first_triangle + i];
+        const Vec3d a = as_double(g.vertices[t.vertex[0]].position_world), b = as_double(g.vertices[t.vertex[1]].position_world);
+        const Vec3d c = as_double(g.vertices[t.vertex[2]].position_world);
+        triangles_.push_back({a, b - a, c - a, cross(b - a, c - a), d.first_triangle + i,
+                              scene.materials.materials[t.material].double_sided});
+      }
+    }
+  }
+
+  // The camera's ray through a point of the frame, in double from the camera itself.
+  OraclePixel trace(const Camera& camera, int width_px, int height_px, double x_px, double y_px) const {
+    const double w = width_px, h = height_px, x = x_px - 0.5 * w, y = 0.5 * h - y_px;
+    const Vec3d right = as_double(camera.right_world), up = as_double(camera.up_world), forward = as_double(camera.forward_world);
+    Vec3d o = as_double(camera.position_world), d = forward;
+    if (camera.orthographic) {
+      o = o + right * (x * 2.0 * static_cast<double>(camera.xmag_m) / w) + up * (y * 2.0 * static_cast<double>(camera.ymag_m) / h);
+    } else {
+      const double per_px = 2.0 * static_cast<double>(camera.tan_half_yfov) / h;
+      d = forward + right * (x * per_px) + up * (y * per_px);
+    }
+    OraclePixel out;
+    const double near_m = static_cast<double>(camera.near_m);
+    const Hit direct = nearest(o, d, near_m);
+    const WaterBody* body = nullptr;
+    double t_water = direct.t;
+    for (const WaterBody& b : scene_.waters) {
+      const double t = crossing(b, o, d);
+      if (t >= near_m && t <= t_water) t_water = t, body = &b;
+    }
+    const double t = body != nullptr ? t_water : direct.t;
+    if (!std::isfinite(t)) return out;
+    out.depth_m = t;  // d has length 1 along the axis
+    out.position = o + d * t;
+    out.path_m = t * norm_of(d);
+    out.steepness = body != nullptr ? std::fabs(dot(unit_of(d), as_double(body->normal))) : direct.steepness;
+    if (body == nullptr) {
+      out.triangle = direct.id;
+      return out;
+    }
+    out.water = true;
+    follow(*body, unit_of(d), out);
+    return out;
+  }
+
+ private:
+  struct Triangle {
+    Vec3d p, e1, e2, n;
+    std::uint32_t id;
+    bool two_sided;
+  };
+  struct Hit {
+    double t = std::numeric_limits<double>::infinity();
+    std::uint32_t id = kNothing;
+    double steepness = 1;
+  };
+
+  Hit nearest(Vec3d o, Vec3d d, double t_min) const {
+    Hit best;
+    for (const Triangle& tri : triangles_) {
+      const double facing = dot(d, tri.n);
+      if (facing == 0 || (facing > 0 && !tri.two_sided)) continue;
+      const double t = dot(tri.p - o, tri.n) / facing;
+      if (!(t > t_min) || t >= best.t) continue;
+      const Vec3d r = o + d * t - tri.p;
+      const double nn = dot(tri.n, tri.n), u = dot(cross(r, tri.e2), tri.n) / nn, v = dot(cross(tri.e1, r), tri.n) / nn;
+      if (u < 0 || v < 0 || u + v > 1) continue;
+      const double cosine = std::fabs(facing) / (norm_of(d) * std::sqrt(nn)), sine = std::sqrt(nn) / (norm_of(tri.e1) * norm_of(tri.e2));
+      best = {t, tri.id, cosine * sine};
+    }
+    return best;
+  }
+
+  // Of a ray with a body's outline; infinity: none.
+  static double crossing(const WaterBody& body, Vec3d o, Vec3d d) {
+    const Vec3d n = as_double(body.normal), origin = as_double(body.origin);
+    const double t = dot(origin - o, n) / dot(d, n);
+    if (!(t > 0)) return std::numeric_limits<double>::infinity();
+    const Vec3d p = o + d * t;
+    for (std::size_t i = 0; i + 2 < body.outline.size(); i += 3) {
+      const Vec3d a = as_double(body.outline[i]), b = as_double(body.outline[i + 1]), c = as_double(body.outline[i + 2]);
+      const double ab = dot(cross(b - a, p - a), n), bc = dot(cross(c - b, p - b), n), ca = dot(cross(a - c, p - c), n);
+      if ((ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0)) return t;
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+
+  // On through the surface, or back down from it.
+  void follow(const WaterBody& body, Vec3d d, OraclePixel& out) const {
+    const bool from_water = dot(d, as_double(body.normal)) > 0;
+    const Vec3d n = as_double(body.normal) * (from_water ? -1.0 : 1.0);
+    const double ior = static_cast<double>(body.ior), eta = from_water ? ior : 1.0 / ior;
+    const double cos_i = -dot(d, n), sin2_t = eta * eta * (1.0 - cos_i * cos_i);
+    const bool total = sin2_t > 1.0;
+    Vec3d on = d + n * (2.0 * cos_i);
+    double cosine = cos_i;
+    if (!total) {
+      cosine = bend_ ? std::sqrt(1.0 - sin2_t) : cos_i;
+      on = bend_ ? d * eta + n * (eta * cos_i - cosine) : d;
+    }
+    const Hit hit = nearest(out.position, on, 1e-9);
+    out.hit_kind = HitKind::kSky;
+    if (!std::isfinite(hit.t)) return;
+    out.hit_kind = total ? HitKind::kMirror : HitKind::kSurface;
+    out.hit_id = hit.id;
+    out.hit_position = out.position + on * hit.t;
+    out.path_m += hit.t;
+    out.hit_steepness = std::min(cos_i, cosine) * hit.steepness;
+  }
+
+  const RenderScene& scene_;
+  bool bend_;
+  std::vector<Triangle> triangles_;
+};
+
+inline RenderScene built_in(const std::string& name, std::uint64_t triangles) {
+  for (const ProceduralScene& s : procedural_scenes())
+    if (name == s.name) return build_render_scene(s.make(triangles));
+  return {};
+}
+
+inline Camera camera_at(Vec3f eye, Vec3f target, double yfov) {
+  const Vec3d f = unit_of(as_double(target) - as_double(eye)), r = unit_of(cross(f, Vec3d{0, 1, 0})), u = cross(r, f);
+  const auto narrow = [](Vec3d v) { return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; };
+  Camera c;
+  c.position_world = eye;
+  c.right_world = narrow(r), c.up_world = narrow(u), c.forward_world = narrow(f);
+  c.tan_half_yfov = static_cast<float>(std::tan(0.5 * yfov));
+  return c;
+}
+
+inline const AovImage& image_of(const Frame& frame, Aov aov) {
+  for (const AovImage& image : frame.aovs)
+    if (image.aov == aov) return image;
+  throw std::runtime_error("no such AOV");
+}
+inline Vec3d vector_in(const AovImage& image, std::size_t pixel) {
+  return {static_cast<double>(image.floats[3 * pixel]), static_cast<double>(image.floats[3 * pixel + 1]),
+          static_cast<double>(image.floats[3 * pixel + 2])};
+}
+
+}  // namespace shoal_test
