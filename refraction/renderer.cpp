@@ -1,6 +1,7 @@
 #include "refraction/renderer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 #include "core/float_mode.h"
@@ -129,7 +130,6 @@ struct Renderer::Impl {
     }
     if (f.settings.spp > 1 || f.settings.digests || f.settings.keep_linear)
       for (auto* plane : {&f.lit.red, &f.lit.green, &f.lit.blue, &f.lit.alpha}) plane->resize(f.grid.pixel_slots());
-    f.srgb8.resize(static_cast<std::size_t>(f.settings.width_px) * static_cast<std::size_t>(f.settings.height_px) * 3);
   }
 
   void set_sample(const Camera& camera, Vec2f offset_px) {
@@ -153,6 +153,7 @@ struct Renderer::Impl {
     StageDigests* wanted = f.settings.digests ? &digests : nullptr;
     clock.reset();
     f.water_pixels = f.subdivision_capped = 0;
+    f.srgb8.resize(static_cast<std::size_t>(f.settings.width_px) * static_cast<std::size_t>(f.settings.height_px) * 3);
     f.sample_count = f.settings.spp;
     f.sample = 0;
     if (f.settings.spp > 1) {
@@ -163,6 +164,7 @@ struct Renderer::Impl {
         sample(wanted);
         out.water_pixels = f.water_pixels;
         copy_aovs(f, scene, out);
+        clock.skip();
       }
       f.capture = false, f.accumulate = true;
       for (int s = 0; s < f.settings.spp; ++s) {
@@ -180,11 +182,11 @@ struct Renderer::Impl {
       out.water_pixels = f.water_pixels;
     }
     out.width_px = f.settings.width_px, out.height_px = f.settings.height_px;
-    out.srgb8 = f.srgb8;
-    clock.lap("output");
     if (f.settings.spp == 1) copy_aovs(f, scene, out);
     if (f.settings.keep_linear) copy_linear(f, out);
     if (wanted != nullptr) digests.picture(f);
+    // The picture changes hands; the caller's old one is the next frame's memory.
+    std::swap(out.srgb8, f.srgb8);
     out.digests = digests.list();
     out.stages_ms = clock.stages();
     out.frame_ms = clock.total_ms();
