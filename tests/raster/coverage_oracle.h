@@ -24,9 +24,9 @@ inline Wide128 side_of(const GridTriangle& t, int a, int b, std::int64_t x, std:
 }
 inline int sign_of(Wide128 v) { return v > 0 ? 1 : (v < 0 ? -1 : 0); }
 
-// Direct3D's words: a sample on an edge is in if the edge is a top edge (exactly horizontal, above the others) or a left
-// edge (not horizontal, on the left side of the triangle). "Left side" is taken literally: a step to the right from the
-// edge goes to where the third corner is.
+// Direct3D's words: a sample on an edge is in if the edge is a top edge (exactly horizontal, above the others) or a
+// left edge (not horizontal, on the left side of the triangle). "Left side" is taken literally: a step to the right
+// from the edge goes to where the third corner is.
 inline bool edge_owns_its_points(const GridTriangle& t, int a, int b, int c) {
   if (t.y[a] == t.y[b]) return t.y[c] > t.y[a];
   const int third = sign_of(side_of(t, a, b, t.x[c], t.y[c]));
@@ -61,7 +61,9 @@ struct Coverage {
   std::vector<std::uint32_t> count;
   std::vector<std::uint64_t> marks;
   Coverage(int width, int height)
-      : width_px(width), height_px(height), count(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+      : width_px(width),
+        height_px(height),
+        count(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
         marks(count.size()) {}
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);
@@ -74,11 +76,14 @@ struct Coverage {
 };
 
 // Pixel by pixel within each triangle's box.
-inline Coverage oracle_coverage(const std::vector<GridTriangle>& triangles, int width_px, int height_px, bool two_sided) {
+inline Coverage oracle_coverage(const std::vector<GridTriangle>& triangles, int width_px, int height_px,
+                                bool two_sided) {
   Coverage out(width_px, height_px);
   for (const GridTriangle& t : triangles) {
     if (!two_sided && !faces_viewer(t)) continue;
-    const auto px = [](std::int64_t v, int size) { return static_cast<int>(std::max<std::int64_t>(-1, std::min<std::int64_t>(v / 256, size))); };
+    const auto px = [](std::int64_t v, int size) {
+      return static_cast<int>(std::max<std::int64_t>(-1, std::min<std::int64_t>(v / 256, size)));
+    };
     const int x0 = std::max(px(std::min({t.x[0], t.x[1], t.x[2]}), width_px) - 1, 0);
     const int x1 = std::min(px(std::max({t.x[0], t.x[1], t.x[2]}), width_px) + 1, width_px - 1);
     const int y0 = std::max(px(std::min({t.y[0], t.y[1], t.y[2]}), height_px) - 1, 0);

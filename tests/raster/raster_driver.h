@@ -14,9 +14,16 @@ namespace shoal_test {
 using namespace shoal;
 
 inline GeometryView view_of(const Geometry& g, const Materials& m) {
-  return {g.x_world.data(), g.y_world.data(), g.z_world.data(), {g.corner0.data(), g.corner1.data(), g.corner2.data()},
-          g.chunks.data(), g.vertices.data(), g.colors.empty() ? nullptr : g.colors.data(), g.triangles.data(),
-          m.materials.data(), m.textures.data()};
+  return {g.x_world.data(),
+          g.y_world.data(),
+          g.z_world.data(),
+          {g.corner0.data(), g.corner1.data(), g.corner2.data()},
+          g.chunks.data(),
+          g.vertices.data(),
+          g.colors.empty() ? nullptr : g.colors.data(),
+          g.triangles.data(),
+          m.materials.data(),
+          m.textures.data()};
 }
 
 // A pass over the whole frame, pixel (0, 0) top left.
@@ -31,8 +38,8 @@ inline PassSettings whole_frame(int width_px, int height_px, Vec2f centre_px, in
 
 // Chunks through the vertex program into bins, `per_item` chunks an item.
 template <class Program>
-std::vector<BinItem> bin_geometry(const Geometry& g, const Materials& m, const Program& program, const PassSettings& pass,
-                                  std::uint32_t per_item) {
+std::vector<BinItem> bin_geometry(const Geometry& g, const Materials& m, const Program& program,
+                                  const PassSettings& pass, std::uint32_t per_item) {
   const GeometryView view = view_of(g, m);
   const std::uint32_t chunks = static_cast<std::uint32_t>(g.chunks.size());
   std::vector<BinItem> items((chunks + per_item - 1) / per_item);
@@ -45,7 +52,8 @@ std::vector<BinItem> bin_geometry(const Geometry& g, const Materials& m, const P
 
 // Bins to visible ids and depths. `alpha` cuts pixels of masked materials (KeepAll: none).
 template <class AlphaTest>
-void draw_tiles(const std::vector<BinItem>& items, const PassSettings& pass, const AlphaTest& alpha, VisibilityBuffer& out) {
+void draw_tiles(const std::vector<BinItem>& items, const PassSettings& pass, const AlphaTest& alpha,
+                VisibilityBuffer& out) {
   const BinGrid& grid = pass.grid;
   out.resize(make_frame_grid(pass.width_px, pass.height_px));
   for (int ty = 0; ty < grid.tiles_y; ++ty)

@@ -52,7 +52,9 @@ Camera random_camera(TestRandom& random, Vec3f eye, double pitch_lo, double pitc
   const Vec3d f{std::cos(pitch) * std::cos(yaw), std::sin(pitch), std::cos(pitch) * std::sin(yaw)};
   const Vec3d r{-std::sin(yaw), 0, std::cos(yaw)}, u = cross(r, f);
   const Vec3d right = r * std::cos(roll) + u * std::sin(roll), up = cross(right, f);
-  const auto to_float = [](Vec3d v) { return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; };
+  const auto to_float = [](Vec3d v) {
+    return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+  };
   Camera c;
   c.position_world = eye;
   c.forward_world = to_float(f), c.right_world = to_float(right), c.up_world = to_float(up);
@@ -74,13 +76,15 @@ Geometry level_sheet(int cells, TestRandom& random) {
     }
   for (int j = 0; j < cells; ++j)
     for (int i = 0; i < cells; ++i) {
-      const std::uint32_t a = static_cast<std::uint32_t>(j * (cells + 1) + i), b = a + 1, c = a + static_cast<std::uint32_t>(cells) + 1, d = c + 1;
+      const std::uint32_t a = static_cast<std::uint32_t>(j * (cells + 1) + i), b = a + 1,
+                          c = a + static_cast<std::uint32_t>(cells) + 1, d = c + 1;
       indices.insert(indices.end(), {a, b, d, a, d, c});
     }
   return geometry_of(p, indices);
 }
 
-// Does the line of sight through a point of the frame meet the part of the sheet that is kept, in front of the near plane?
+// Does the line of sight through a point of the frame meet the part of the sheet that is kept, in front of the near
+// plane?
 bool sees_sheet(const View& view, double x_px, double y_px, const Plane* keep) {
   const double dx = x_px - static_cast<double>(view.centre_px.x), dy = y_px - static_cast<double>(view.centre_px.y);
   const Vec3d across = to_double(view.ray_dx) * dx + to_double(view.ray_dy) * dy;
@@ -143,7 +147,8 @@ TEST_CASE("clip: the clipped polygon is the triangle's part inside of near plane
       const double x = q.x, y = q.y, w = q.w;
       CHECK(w > 0);
       // Inside up to rounding...
-      lost = std::max({lost, (static_cast<double>(near_m) - w) / 20, (std::fabs(x) / 16384 - w) / 20, (std::fabs(y) / 16384 - w) / 20});
+      lost = std::max({lost, (static_cast<double>(near_m) - w) / 20, (std::fabs(x) / 16384 - w) / 20,
+                       (std::fabs(y) / 16384 - w) / 20});
       // ... and on the triangle: the distance from its plane in (x, y, w), scaled to the unit cube.
       const auto scaled = [&](const ClipVertex<float>& c) {
         return Vec3d{static_cast<double>(c.x) / reach, static_cast<double>(c.y) / reach, static_cast<double>(c.w) / 20};
@@ -169,7 +174,8 @@ TEST_CASE("clip: a triangle cut by a world plane keeps its area on the kept side
     const auto area = [](const Polygon<Vec3f>& q) {
       Vec3d sum{0, 0, 0};
       for (int i = 2; i < q.count; ++i)
-        sum = sum + cross(to_double(q.vertex[i - 1]) - to_double(q.vertex[0]), to_double(q.vertex[i]) - to_double(q.vertex[0]));
+        sum = sum + cross(to_double(q.vertex[i - 1]) - to_double(q.vertex[0]),
+                          to_double(q.vertex[i]) - to_double(q.vertex[0]));
       return sum;
     };
     const Vec3d whole = cross(to_double(p[1]) - to_double(p[0]), to_double(p[2]) - to_double(p[0]));
@@ -211,7 +217,8 @@ TEST_CASE("clip: two triangles that share an edge get the same bits where it is 
     const bool cut = (plane_distance(plane, w[0]) >= 0) != (plane_distance(plane, w[1]) >= 0);
     int equal = 0;
     for (int i = 0; i < s.count; ++i)
-      for (int j = 0; j < t.count; ++j) equal += s.vertex[i].x == t.vertex[j].x && s.vertex[i].y == t.vertex[j].y && s.vertex[i].z == t.vertex[j].z;
+      for (int j = 0; j < t.count; ++j)
+        equal += s.vertex[i].x == t.vertex[j].x && s.vertex[i].y == t.vertex[j].y && s.vertex[i].z == t.vertex[j].z;
     shared += cut;
     different += cut && equal != 2;  // the edge's inner end, and the cut
   }

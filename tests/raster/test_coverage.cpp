@@ -87,9 +87,11 @@ TEST_CASE("coverage: random triangles of all sizes equal the exact oracle") {
       GridMesh m;
       for (int i = 0; i < 120; ++i) {
         const std::int64_t reach = std::int64_t(1) << random.integer(3, 17);
-        const std::int64_t x = random.integer(-2000, size.width_px * 256 + 2000), y = random.integer(-2000, size.height_px * 256 + 2000);
+        const std::int64_t x = random.integer(-2000, size.width_px * 256 + 2000),
+                           y = random.integer(-2000, size.height_px * 256 + 2000);
         std::uint32_t v[3];
-        for (std::uint32_t& k : v) k = m.vertex(x + random.integer(-reach, reach), y + random.integer(-reach, reach), 0.5f);
+        for (std::uint32_t& k : v)
+          k = m.vertex(x + random.integer(-reach, reach), y + random.integer(-reach, reach), 0.5f);
         m.triangle(v[0], v[1], v[2]);
       }
       for (const bool two_sided : {false, true}) check_mesh(m, size, tile, two_sided, two_sided ? 4.0f : 1.0f);
@@ -107,7 +109,8 @@ TEST_CASE("coverage: corners and edges on sample points equal the exact oracle")
         const int cx = static_cast<int>(random.integer(0, 40)), cy = static_cast<int>(random.integer(0, 36));
         std::uint32_t v[3];
         for (std::uint32_t& k : v)
-          k = m.vertex((cx + random.integer(-reach, reach)) * 256 + 128, (cy + random.integer(-reach, reach)) * 256 + 128, 0.5f);
+          k = m.vertex((cx + random.integer(-reach, reach)) * 256 + 128,
+                       (cy + random.integer(-reach, reach)) * 256 + 128, 0.5f);
         m.triangle(v[0], v[1], v[2]);
       }
       check_mesh(m, size, tile, true);
@@ -122,16 +125,28 @@ TEST_CASE("coverage: slivers, needles and degenerate triangles equal the exact o
   for (const int tile : {16, 64, 256}) {
     GridMesh m;
     for (int i = 0; i < 300; ++i) {
-      const std::int64_t x = random.integer(-200, size.width_px * 256 + 200), y = random.integer(-200, size.height_px * 256 + 200);
-      const std::int64_t reach = i % 2 == 0 ? 4000 : 60000, dx = random.integer(-reach, reach), dy = random.integer(-reach, reach);
+      const std::int64_t x = random.integer(-200, size.width_px * 256 + 200),
+                         y = random.integer(-200, size.height_px * 256 + 200);
+      const std::int64_t reach = i % 2 == 0 ? 4000 : 60000, dx = random.integer(-reach, reach),
+                         dy = random.integer(-reach, reach);
       const std::int64_t thick = random.integer(0, 3);
       const std::uint32_t a = m.vertex(x, y, 0.5f), b = m.vertex(x + dx, y + dy, 0.5f);
       switch (i % 5) {
-        case 0: m.triangle(a, b, m.vertex(x + thick, y + random.integer(-1, 1), 0.5f)); break;             // needle
-        case 1: m.triangle(a, b, m.vertex(x + dx / 2 + thick, y + dy / 2, 0.5f)); break;                    // sliver
-        case 2: m.triangle(a, b, m.vertex(x + 2 * dx, y + 2 * dy, 0.5f)); break;                            // collinear
-        case 3: m.triangle(a, a, b); break;
-        default: m.triangle(a, a, a); break;
+        case 0:
+          m.triangle(a, b, m.vertex(x + thick, y + random.integer(-1, 1), 0.5f));
+          break;  // needle
+        case 1:
+          m.triangle(a, b, m.vertex(x + dx / 2 + thick, y + dy / 2, 0.5f));
+          break;  // sliver
+        case 2:
+          m.triangle(a, b, m.vertex(x + 2 * dx, y + 2 * dy, 0.5f));
+          break;  // collinear
+        case 3:
+          m.triangle(a, a, b);
+          break;
+        default:
+          m.triangle(a, a, a);
+          break;
       }
     }
     check_mesh(m, size, tile, true);
@@ -149,14 +164,17 @@ TEST_CASE("coverage: huge triangles up to the guard band equal the exact oracle"
       for (int i = 0; i < 12; ++i) {
         std::uint32_t v[3];
         for (std::uint32_t& k : v) {
-          const std::int64_t band_x = i % 3 == 0 ? size.width_px * 128 : reach, band_y = i % 3 == 0 ? size.height_px * 128 : reach;
+          const std::int64_t band_x = i % 3 == 0 ? size.width_px * 128 : reach,
+                             band_y = i % 3 == 0 ? size.height_px * 128 : reach;
           k = m.vertex(cx + random.integer(-band_x, band_x), cy + random.integer(-band_y, band_y), 0.5f);
         }
         m.triangle(v[0], v[1], v[2]);
       }
       // The guard band's own corners.
-      m.triangle(m.vertex(cx - reach, cy - reach, 0.5f), m.vertex(cx - reach, cy + reach, 0.5f), m.vertex(cx + reach, cy + reach, 0.5f));
-      m.triangle(m.vertex(cx - reach, cy - reach + 1, 0.5f), m.vertex(cx + reach, cy + reach, 0.5f), m.vertex(cx + reach, cy + reach - 3, 0.5f));
+      m.triangle(m.vertex(cx - reach, cy - reach, 0.5f), m.vertex(cx - reach, cy + reach, 0.5f),
+                 m.vertex(cx + reach, cy + reach, 0.5f));
+      m.triangle(m.vertex(cx - reach, cy - reach + 1, 0.5f), m.vertex(cx + reach, cy + reach, 0.5f),
+                 m.vertex(cx + reach, cy + reach - 3, 0.5f));
       check_mesh(m, size, tile, true);
     }
   }
@@ -175,7 +193,8 @@ TEST_CASE("coverage: meshes with shared edges cover each pixel exactly once") {
       }
   // The outline on pixel centres: top and left edges own theirs, bottom and right ones do not.
   for (const int tile : kTiles) {
-    const GridMesh m = jittered_grid(5, 5, x0 * 256 + 128, y0 * 256 + 128, x1 * 256 + 128, y1 * 256 + 128, random, true);
+    const GridMesh m =
+        jittered_grid(5, 5, x0 * 256 + 128, y0 * 256 + 128, x1 * 256 + 128, y1 * 256 + 128, random, true);
     check_covered_once(m, size, tile, x0, y0, x1, y1);
   }
 }

@@ -25,7 +25,8 @@ VisibilityBuffer draw(const Geometry& g, const Materials& m, const PassSettings&
                       std::uint32_t per_item, bool reversed_items = false) {
   std::vector<BinItem> items = bin_geometry(g, m, program, pass, per_item);
   std::vector<BinItem> ordered;
-  for (std::size_t i = 0; i < items.size(); ++i) ordered.push_back(std::move(items[reversed_items ? items.size() - 1 - i : i]));
+  for (std::size_t i = 0; i < items.size(); ++i)
+    ordered.push_back(std::move(items[reversed_items ? items.size() - 1 - i : i]));
   VisibilityBuffer out;
   draw_tiles(ordered, pass, KeepAll{}, out);
   return out;
@@ -45,12 +46,16 @@ struct PlaneDepth {
 PlaneDepth plane_depth(const GridTriangle& t, const float d[3], int x_px, int y_px) {
   const double x1 = static_cast<double>(t.x[1] - t.x[0]), y1 = static_cast<double>(t.y[1] - t.y[0]);
   const double x2 = static_cast<double>(t.x[2] - t.x[0]), y2 = static_cast<double>(t.y[2] - t.y[0]);
-  const double e1 = static_cast<double>(d[1]) - static_cast<double>(d[0]), e2 = static_cast<double>(d[2]) - static_cast<double>(d[0]);
+  const double e1 = static_cast<double>(d[1]) - static_cast<double>(d[0]),
+               e2 = static_cast<double>(d[2]) - static_cast<double>(d[0]);
   const double area = x1 * y2 - y1 * x2;
-  const double x = x_px * 256.0 + 128 - static_cast<double>(t.x[0]), y = y_px * 256.0 + 128 - static_cast<double>(t.y[0]);
+  const double x = x_px * 256.0 + 128 - static_cast<double>(t.x[0]),
+               y = y_px * 256.0 + 128 - static_cast<double>(t.y[0]);
   const double depth = static_cast<double>(d[0]) + (x * (e1 * y2 - e2 * y1) + y * (e2 * x1 - e1 * x2)) / area;
-  const double scale = std::fabs(static_cast<double>(d[0])) + (std::fabs(x) * (std::fabs(e1 * y2) + std::fabs(e2 * y1)) +
-                                                               std::fabs(y) * (std::fabs(e2 * x1) + std::fabs(e1 * x2))) / std::fabs(area);
+  const double scale =
+      std::fabs(static_cast<double>(d[0])) + (std::fabs(x) * (std::fabs(e1 * y2) + std::fabs(e2 * y1)) +
+                                              std::fabs(y) * (std::fabs(e2 * x1) + std::fabs(e1 * x2))) /
+                                                 std::fabs(area);
   return {depth, scale};
 }
 
@@ -77,8 +82,10 @@ DoubleHit double_hit(const View& view, const Vec3d p[3], double x_px, double y_p
   const double dx = x_px - static_cast<double>(view.centre_px.x), dy = y_px - static_cast<double>(view.centre_px.y);
   const Vec3d across = to_double(view.ray_dx) * dx + to_double(view.ray_dy) * dy;
   Vec3d o = to_double(view.camera.position_world), d = to_double(view.camera.forward_world);
-  if (view.camera.orthographic) o = o + across;
-  else d = d + across;
+  if (view.camera.orthographic)
+    o = o + across;
+  else
+    d = d + across;
   const Vec3d n = cross(p[1] - p[0], p[2] - p[0]);
   const double t = dot(p[0] - o, n) / dot(d, n);
   const Vec3d hit = o + d * t, r = hit - p[0];
@@ -102,9 +109,11 @@ TEST_CASE("depth: at covered pixels as the plane of the snapped corners in doubl
     std::uint32_t v[3];
     const double reach = std::pow(10.0, random.real(0.3, 4.2));
     for (std::uint32_t& k : v) {
-      const float depth = round % 3 == 0 ? random.in(0.5, 0.50001) : static_cast<float>(std::pow(10.0, random.real(-5, 0)));
-      k = m.vertex(static_cast<std::int64_t>(random.real(-0.5, 0.5) * std::min(reach, width + 200.0) * 256 + width * 128),
-                   static_cast<std::int64_t>(random.real(-0.5, 0.5) * reach * 256 + height * 128), depth);
+      const float depth =
+          round % 3 == 0 ? random.in(0.5, 0.50001) : static_cast<float>(std::pow(10.0, random.real(-5, 0)));
+      k = m.vertex(
+          static_cast<std::int64_t>(random.real(-0.5, 0.5) * std::min(reach, width + 200.0) * 256 + width * 128),
+          static_cast<std::int64_t>(random.real(-0.5, 0.5) * reach * 256 + height * 128), depth);
     }
     m.triangle(v[0], v[1], v[2]);
     const GridTriangle t = m.triangles()[0];
@@ -138,9 +147,11 @@ TEST_CASE("depth: the nearest triangle shows, the smaller id where depths are eq
   // Few depths, so that many pixels are ties between several triangles, small and large.
   for (int i = 0; i < 1500; ++i) {
     const float depth = 0.25f * static_cast<float>(random.integer(1, 3));
-    const std::int64_t reach = i % 4 == 0 ? 60000 : 4000, x = random.integer(0, width * 256), y = random.integer(0, height * 256);
+    const std::int64_t reach = i % 4 == 0 ? 60000 : 4000, x = random.integer(0, width * 256),
+                       y = random.integer(0, height * 256);
     std::uint32_t v[3];
-    for (std::uint32_t& k : v) k = m.vertex(x + random.integer(-reach, reach), y + random.integer(-reach, reach), depth);
+    for (std::uint32_t& k : v)
+      k = m.vertex(x + random.integer(-reach, reach), y + random.integer(-reach, reach), depth);
     m.triangle(v[0], v[1], v[2]);
   }
   const std::vector<GridTriangle> triangles = m.triangles();
@@ -161,10 +172,12 @@ TEST_CASE("depth: the nearest triangle shows, the smaller id where depths are eq
     if (order == 1) std::reverse(g.chunks.begin(), g.chunks.end());
     if (order >= 2)
       for (std::size_t i = g.chunks.size(); i > 1; --i)
-        std::swap(g.chunks[i - 1], g.chunks[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(i) - 1))]);
+        std::swap(g.chunks[i - 1],
+                  g.chunks[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(i) - 1))]);
     for (const int tile : {16, 32, 64, 128, 256})
       for (const std::uint32_t per_item : {1u, 5u, 1000u}) {
-        const VisibilityBuffer out = draw(g, materials, whole_frame(width, height, centre, tile), PixelProgram{centre}, per_item, order == 3);
+        const VisibilityBuffer out =
+            draw(g, materials, whole_frame(width, height, centre, tile), PixelProgram{centre}, per_item, order == 3);
         long wrong = 0;
         for (int y = 0; y < height; ++y)
           for (int x = 0; x < width; ++x) {
@@ -176,10 +189,10 @@ TEST_CASE("depth: the nearest triangle shows, the smaller id where depths are eq
   }
 }
 
-// Error, with c the cosine between ray and normal, s the sine of the corner at the first vertex, L the coordinates' size
-// (distance, eye, edges) and e the shorter edge at that vertex: position and distance 2.5e-7 L / (c s); uv in [-4, 4]
-// 1e-6 L / (c s e), colours and normals 2.5e-7 L / (c s e); derivatives 3e-5 of the largest over c^2 s; level of detail
-// 1e-4 + 2e-5 / (c^2 s). Measured: about half of each.
+// Error, with c the cosine between ray and normal, s the sine of the corner at the first vertex, L the coordinates'
+// size (distance, eye, edges) and e the shorter edge at that vertex: position and distance 2.5e-7 L / (c s); uv in [-4,
+// 4] 1e-6 L / (c s e), colours and normals 2.5e-7 L / (c s e); derivatives 3e-5 of the largest over c^2 s; level of
+// detail 1e-4 + 2e-5 / (c^2 s). Measured: about half of each.
 TEST_CASE("resolve: position, uv, normal, colour, derivatives and level of detail as in double") {
   TestRandom random(23);
   Texture texture;
@@ -211,24 +224,29 @@ TEST_CASE("resolve: position, uv, normal, colour, derivatives and level of detai
     std::vector<Vec4f> colors(3);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3d n{random.real(-1, 1), random.real(-1, 1), random.real(1.2, 2)};
-      normals[k] = {static_cast<float>(n.x / norm(n)), static_cast<float>(n.y / norm(n)), static_cast<float>(n.z / norm(n))};
+      normals[k] = {static_cast<float>(n.x / norm(n)), static_cast<float>(n.y / norm(n)),
+                    static_cast<float>(n.z / norm(n))};
       uvs[k] = {random.in(-4, 4), random.in(-4, 4)};
       colors[k] = {random.in(0, 1), random.in(0, 1), random.in(0, 1), random.in(0, 1)};
     }
     const std::uint32_t indices[3] = {0, 1, 2};
     MeshView mesh;
-    mesh.positions_world = p.data(), mesh.normals_world = normals.data(), mesh.uvs = uvs.data(), mesh.colors = colors.data();
+    mesh.positions_world = p.data(), mesh.normals_world = normals.data(), mesh.uvs = uvs.data(),
+    mesh.colors = colors.data();
     mesh.indices = indices, mesh.vertex_count = mesh.index_count = 3;
     append_mesh(g, mesh);
     const Materials materials = two_sided();
     PixelAttributes<WideF> a;
     const Ray<WideF> wide = pixel_ray<WideF>(view, WideF(x_px), WideF(y_px));
-    resolve_attributes(view_of(g, materials), wide, pixel_ray_differential<WideF>(view), WideI(0), mask_from_bits(0xFFFFu), a);
+    resolve_attributes(view_of(g, materials), wide, pixel_ray_differential<WideF>(view), WideI(0),
+                       mask_from_bits(0xFFFFu), a);
     const auto lane = [](WideF v) { return static_cast<double>(extract(v, 5)); };
 
-    const double reach = norm(pd[0] - to_double(view.camera.position_world)) + norm(to_double(view.camera.position_world)) + norm(e1) + norm(e2);
+    const double reach = norm(pd[0] - to_double(view.camera.position_world)) +
+                         norm(to_double(view.camera.position_world)) + norm(e1) + norm(e2);
     const double scale = hit.cosine * sine / reach, edge = std::min(norm(e1), norm(e2));
-    const Vec3d off = Vec3d{lane(a.position_world.x), lane(a.position_world.y), lane(a.position_world.z)} - hit.position;
+    const Vec3d off =
+        Vec3d{lane(a.position_world.x), lane(a.position_world.y), lane(a.position_world.z)} - hit.position;
     position = std::max(position, norm(off) * scale);
     distance = std::max(distance, std::fabs(lane(a.t) - hit.t) * scale);
     // What varies over the triangle moves by its slope times the position's error.
@@ -239,19 +257,25 @@ TEST_CASE("resolve: position, uv, normal, colour, derivatives and level of detai
     const double red = mix([&](std::size_t k) { return static_cast<double>(colors[k].x); });
     color = std::max(color, std::fabs(lane(a.color.x) - red) * scale * edge);
     Vec3d n = to_double(normals[0]) * w + to_double(normals[1]) * hit.u + to_double(normals[2]) * hit.v;
-    const Vec3d flat = cross(e1, e2), view_d{static_cast<double>(ray.direction_world.x), static_cast<double>(ray.direction_world.y), static_cast<double>(ray.direction_world.z)};
+    const Vec3d flat = cross(e1, e2),
+                view_d{static_cast<double>(ray.direction_world.x), static_cast<double>(ray.direction_world.y),
+                       static_cast<double>(ray.direction_world.z)};
     n = n * ((dot(flat, view_d) > 0 ? -1.0 : 1.0) / norm(n));
-    normal = std::max(normal, norm(Vec3d{lane(a.normal_world.x), lane(a.normal_world.y), lane(a.normal_world.z)} - n) * scale * edge);
+    normal = std::max(
+        normal, norm(Vec3d{lane(a.normal_world.x), lane(a.normal_world.y), lane(a.normal_world.z)} - n) * scale * edge);
 
     // Derivatives: central differences of the double hit over a hundredth of a pixel, exact to 1e-8.
     const auto uv_at = [&](double dx, double dy) {
       const DoubleHit h = double_hit(view, pd, static_cast<double>(x_px) + dx, static_cast<double>(y_px) + dy);
       const double hw = 1 - h.u - h.v;
-      return Vec2<double>{static_cast<double>(uvs[0].x) * hw + static_cast<double>(uvs[1].x) * h.u + static_cast<double>(uvs[2].x) * h.v,
-                          static_cast<double>(uvs[0].y) * hw + static_cast<double>(uvs[1].y) * h.u + static_cast<double>(uvs[2].y) * h.v};
+      return Vec2<double>{static_cast<double>(uvs[0].x) * hw + static_cast<double>(uvs[1].x) * h.u +
+                              static_cast<double>(uvs[2].x) * h.v,
+                          static_cast<double>(uvs[0].y) * hw + static_cast<double>(uvs[1].y) * h.u +
+                              static_cast<double>(uvs[2].y) * h.v};
     };
     constexpr double kStep = 0.01;
-    const Vec2<double> dx = (uv_at(kStep, 0) - uv_at(-kStep, 0)) * (0.5 / kStep), dy = (uv_at(0, kStep) - uv_at(0, -kStep)) * (0.5 / kStep);
+    const Vec2<double> dx = (uv_at(kStep, 0) - uv_at(-kStep, 0)) * (0.5 / kStep),
+                       dy = (uv_at(0, kStep) - uv_at(0, -kStep)) * (0.5 / kStep);
     const double largest = std::max({std::fabs(dx.x), std::fabs(dx.y), std::fabs(dy.x), std::fabs(dy.y)});
     const double wrong = std::max({std::fabs(lane(a.duv_dx.x) - dx.x), std::fabs(lane(a.duv_dx.y) - dx.y),
                                    std::fabs(lane(a.duv_dy.x) - dy.x), std::fabs(lane(a.duv_dy.y) - dy.y)});

@@ -16,7 +16,9 @@ using namespace shoal;
 
 inline constexpr std::uint32_t kNothing = 0xFFFFFFFFu;
 
-inline Vec3d as_double(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+inline Vec3d as_double(Vec3f v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
 inline double norm_of(Vec3d v) { return std::sqrt(dot(v, v)); }
 inline Vec3d unit_of(Vec3d v) { return v / norm_of(v); }
 
@@ -25,13 +27,13 @@ struct OraclePixel {
   bool water = false;
   double depth_m = std::numeric_limits<double>::infinity();  // along the view axis
   std::uint32_t triangle = kNothing;
-  Vec3d position{0, 0, 0};      // of what shows first, the water's surface included
+  Vec3d position{0, 0, 0};  // of what shows first, the water's surface included
   HitKind hit_kind = HitKind::kNoWater;
   std::uint32_t hit_id = kNothing;
   Vec3d hit_position{0, 0, 0};
-  double path_m = 0;            // from the eye to the hit, or to what shows first
-  // What magnifies rounding: the least cosine between a ray and what it meets (the water's far side included), times the
-  // sine of the hit triangle's first corner; of what shows first, and of the hit.
+  double path_m = 0;  // from the eye to the hit, or to what shows first
+  // What magnifies rounding: the least cosine between a ray and what it meets (the water's far side included), times
+  // the sine of the hit triangle's first corner; of what shows first, and of the hit.
   double steepness = 1, hit_steepness = 1;
 
   bool shows_the_same(const OraclePixel& o) const {
@@ -48,7 +50,8 @@ class RefractionOracle {
       if (!d.drawn) continue;
       for (std::uint32_t i = 0; i < d.triangle_count; ++i) {
         const Geometry::TriangleRecord& t = g.triangles[d.first_triangle + i];
-        const Vec3d a = as_double(g.vertices[t.vertex[0]].position_world), b = as_double(g.vertices[t.vertex[1]].position_world);
+        const Vec3d a = as_double(g.vertices[t.vertex[0]].position_world),
+                    b = as_double(g.vertices[t.vertex[1]].position_world);
         const Vec3d c = as_double(g.vertices[t.vertex[2]].position_world);
         triangles_.push_back({a, b - a, c - a, cross(b - a, c - a), d.first_triangle + i,
                               scene.materials.materials[t.material].double_sided});
@@ -59,10 +62,12 @@ class RefractionOracle {
   // The camera's ray through a point of the frame, in double from the camera itself.
   OraclePixel trace(const Camera& camera, int width_px, int height_px, double x_px, double y_px) const {
     const double w = width_px, h = height_px, x = x_px - 0.5 * w, y = 0.5 * h - y_px;
-    const Vec3d right = as_double(camera.right_world), up = as_double(camera.up_world), forward = as_double(camera.forward_world);
+    const Vec3d right = as_double(camera.right_world), up = as_double(camera.up_world),
+                forward = as_double(camera.forward_world);
     Vec3d o = as_double(camera.position_world), d = forward;
     if (camera.orthographic) {
-      o = o + right * (x * 2.0 * static_cast<double>(camera.xmag_m) / w) + up * (y * 2.0 * static_cast<double>(camera.ymag_m) / h);
+      o = o + right * (x * 2.0 * static_cast<double>(camera.xmag_m) / w) +
+          up * (y * 2.0 * static_cast<double>(camera.ymag_m) / h);
     } else {
       const double per_px = 2.0 * static_cast<double>(camera.tan_half_yfov) / h;
       d = forward + right * (x * per_px) + up * (y * per_px);
@@ -113,7 +118,8 @@ class RefractionOracle {
       const Vec3d r = o + d * t - tri.p;
       const double nn = dot(tri.n, tri.n), u = dot(cross(r, tri.e2), tri.n) / nn, v = dot(cross(tri.e1, r), tri.n) / nn;
       if (u < 0 || v < 0 || u + v > 1) continue;
-      const double cosine = std::fabs(facing) / (norm_of(d) * std::sqrt(nn)), sine = std::sqrt(nn) / (norm_of(tri.e1) * norm_of(tri.e2));
+      const double cosine = std::fabs(facing) / (norm_of(d) * std::sqrt(nn)),
+                   sine = std::sqrt(nn) / (norm_of(tri.e1) * norm_of(tri.e2));
       best = {t, tri.id, cosine * sine};
     }
     return best;
@@ -126,7 +132,8 @@ class RefractionOracle {
     if (!(t > 0)) return std::numeric_limits<double>::infinity();
     const Vec3d p = o + d * t;
     for (std::size_t i = 0; i + 2 < body.outline.size(); i += 3) {
-      const Vec3d a = as_double(body.outline[i]), b = as_double(body.outline[i + 1]), c = as_double(body.outline[i + 2]);
+      const Vec3d a = as_double(body.outline[i]), b = as_double(body.outline[i + 1]),
+                  c = as_double(body.outline[i + 2]);
       const double ab = dot(cross(b - a, p - a), n), bc = dot(cross(c - b, p - b), n), ca = dot(cross(a - c, p - c), n);
       if ((ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0)) return t;
     }
@@ -169,7 +176,9 @@ inline RenderScene built_in(const std::string& name, std::uint64_t triangles) {
 
 inline Camera camera_at(Vec3f eye, Vec3f target, double yfov) {
   const Vec3d f = unit_of(as_double(target) - as_double(eye)), r = unit_of(cross(f, Vec3d{0, 1, 0})), u = cross(r, f);
-  const auto narrow = [](Vec3d v) { return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; };
+  const auto narrow = [](Vec3d v) {
+    return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+  };
   Camera c;
   c.position_world = eye;
   c.right_world = narrow(r), c.up_world = narrow(u), c.forward_world = narrow(f);

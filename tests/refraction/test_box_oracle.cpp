@@ -1,5 +1,5 @@
-// Frames of the built-in scenes against the brute-force oracle, every pixel: where the primitive is the same, the point is
-// the same up to rounding; where it is not, the pixel is at a silhouette, and counted.
+// Frames of the built-in scenes against the brute-force oracle, every pixel: where the primitive is the same, the point
+// is the same up to rounding; where it is not, the pixel is at a silhouette, and counted.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -44,8 +44,9 @@ struct Tally {
 
 std::string text(const OraclePixel& p) {
   std::ostringstream out;
-  out << (p.water ? "water" : "triangle ") << (p.water ? "" : std::to_string(p.triangle)) << ", kind " << static_cast<int>(p.hit_kind)
-      << ", id " << p.hit_id << ", at " << p.hit_position.x << " " << p.hit_position.y << " " << p.hit_position.z;
+  out << (p.water ? "water" : "triangle ") << (p.water ? "" : std::to_string(p.triangle)) << ", kind "
+      << static_cast<int>(p.hit_kind) << ", id " << p.hit_id << ", at " << p.hit_position.x << " " << p.hit_position.y
+      << " " << p.hit_position.z;
   return out.str();
 }
 
@@ -59,12 +60,13 @@ struct SilhouetteSearch {
   OraclePixel at(double angle, double r) const {
     return oracle.trace(camera, kWidth, kHeight, x + r * std::cos(angle), y + r * std::sin(angle));
   }
-  bool between(const OraclePixel& shown, double angle, double r0, const OraclePixel& p0, double r1, const OraclePixel& p1,
-               int depth) const {
+  bool between(const OraclePixel& shown, double angle, double r0, const OraclePixel& p0, double r1,
+               const OraclePixel& p1, int depth) const {
     if (p0.shows_the_same(p1) || depth == 0) return false;
     const double r = 0.5 * (r0 + r1);
     const OraclePixel p = at(angle, r);
-    return p.shows_the_same(shown) || between(shown, angle, r0, p0, r, p, depth - 1) || between(shown, angle, r, p, r1, p1, depth - 1);
+    return p.shows_the_same(shown) || between(shown, angle, r0, p0, r, p, depth - 1) ||
+           between(shown, angle, r, p, r1, p1, depth - 1);
   }
   bool finds(const OraclePixel& shown) const {
     constexpr int kAngles = 32, kSteps = 8, kHalvings = 14;
@@ -91,9 +93,9 @@ struct SilhouetteSearch {
   }
 };
 
-// Bounds where the primitive agrees, with L the way from the eye to the point plus the size of the coordinates and s the
-// steepness of the oracle: both points 2e-7 L / s. Depth moves by the snapping of the corners too: by what 0.004 px move
-// the point on its plane.
+// Bounds where the primitive agrees, with L the way from the eye to the point plus the size of the coordinates and s
+// the steepness of the oracle: both points 2e-7 L / s. Depth moves by the snapping of the corners too: by what 0.004 px
+// move the point on its plane.
 void compare(const RenderScene& scene, const RefractionOracle& oracle, const Camera& camera, const std::string& method,
              Tally& tally) {
   FrameSettings settings;
@@ -113,15 +115,18 @@ void compare(const RenderScene& scene, const RefractionOracle& oracle, const Cam
       tally.water += truth.water;
       tally.mirrored += truth.hit_kind == HitKind::kMirror;
       const double size = truth.path_m + norm_of(as_double(camera.position_world)) + 1.0;
-      const double bound = 2e-7 * size / truth.steepness, hit_bound = 2e-7 * size / (truth.steepness * truth.hit_steepness);
+      const double bound = 2e-7 * size / truth.steepness,
+                   hit_bound = 2e-7 * size / (truth.steepness * truth.hit_steepness);
       if (shown.shows_the_same(truth)) {
         if (truth.triangle == kNothing && !truth.water) continue;
         tally.position = std::max(tally.position, norm_of(shown.position - truth.position) / bound);
-        const double per_px = camera.orthographic ? 2.0 * static_cast<double>(camera.xmag_m) / kWidth
-                                                  : truth.depth_m * 2.0 * static_cast<double>(camera.tan_half_yfov) / kHeight;
+        const double per_px = camera.orthographic
+                                  ? 2.0 * static_cast<double>(camera.xmag_m) / kWidth
+                                  : truth.depth_m * 2.0 * static_cast<double>(camera.tan_half_yfov) / kHeight;
         const double depth_bound = 0.004 * per_px / truth.steepness + 2e-6 * size;
         tally.depth = std::max(tally.depth, std::fabs(shown.depth_m - truth.depth_m) / depth_bound);
-        if (truth.hit_id != kNothing) tally.hit = std::max(tally.hit, norm_of(shown.hit_position - truth.hit_position) / hit_bound);
+        if (truth.hit_id != kNothing)
+          tally.hit = std::max(tally.hit, norm_of(shown.hit_position - truth.hit_position) / hit_bound);
         continue;
       }
       ++tally.differ;
@@ -166,9 +171,12 @@ void check_scene(const std::string& name, std::uint64_t triangles, double share,
     for (const auto& [camera_name, camera] : cameras_of(scene, name == "box")) {
       Tally t;
       compare(scene, oracle, camera, method, t);
-      const double pixels = static_cast<double>(t.pixels), differ = static_cast<double>(t.differ), elsewhere = static_cast<double>(t.elsewhere);
-      INFO(name << ", " << method << ", " << camera_name << ": " << t.water << " water pixels, " << t.mirrored << " mirrored, "
-                << t.differ << " differ, " << t.elsewhere << " of them in their point, " << t.ghosts << " ghosts\n" << t.notes.str());
+      const double pixels = static_cast<double>(t.pixels), differ = static_cast<double>(t.differ),
+                   elsewhere = static_cast<double>(t.elsewhere);
+      INFO(name << ", " << method << ", " << camera_name << ": " << t.water << " water pixels, " << t.mirrored
+                << " mirrored, " << t.differ << " differ, " << t.elsewhere << " of them in their point, " << t.ghosts
+                << " ghosts\n"
+                << t.notes.str());
       CAPTURE(t.position, t.hit, t.depth);
       CHECK(t.water > 50);
       CHECK(t.not_silhouette == 0);
@@ -184,6 +192,10 @@ void check_scene(const std::string& name, std::uint64_t triangles, double share,
 
 }  // namespace
 
-TEST_CASE("box: every pixel as brute force in double shows it, or a silhouette") { check_scene("box", 600, 0.0025, 0.0025); }
+TEST_CASE("box: every pixel as brute force in double shows it, or a silhouette") {
+  check_scene("box", 600, 0.0025, 0.0025);
+}
 
-TEST_CASE("pool: every pixel as brute force in double shows it, or a silhouette") { check_scene("pool", 2000, 0.0075, 0.0075); }
+TEST_CASE("pool: every pixel as brute force in double shows it, or a silhouette") {
+  check_scene("pool", 2000, 0.0075, 0.0075);
+}

@@ -48,7 +48,8 @@ void check_settings(const char* name, int width_px, int height_px, int spp) {
       // The best set in full where a frame is one sample, all others along the diagonals.
       for (const int tile : {16, 32, 64, 128, 256})
         for (const int threads : {1, 2, 7})
-          if ((spp == 1 && isa == supported_isas().front()) || (tile / 16 + threads) % 3 == 0) ways.push_back({isa, threads, tile});
+          if ((spp == 1 && isa == supported_isas().front()) || (tile / 16 + threads) % 3 == 0)
+            ways.push_back({isa, threads, tile});
     }
     for (const How& how : ways) {
       const std::vector<Digests> got = render_all(scene, settings, how);
@@ -56,9 +57,9 @@ void check_settings(const char* name, int width_px, int height_px, int spp) {
         REQUIRE(got[c].size() == expected[c].size());
         for (std::size_t s = 0; s < expected[c].size(); ++s) {
           if (got[c][s] == expected[c][s]) continue;
-          FAIL_CHECK(name << " " << method.name << " " << scene.cameras[c].name << " " << width_px << "x" << height_px << " spp " << spp
-                     << ", " << isa_name(how.isa) << ", " << how.threads << " threads, tile " << how.tile_px << ": stage "
-                     << expected[c][s].first << " differs");
+          FAIL_CHECK(name << " " << method.name << " " << scene.cameras[c].name << " " << width_px << "x" << height_px
+                          << " spp " << spp << ", " << isa_name(how.isa) << ", " << how.threads << " threads, tile "
+                          << how.tile_px << ": stage " << expected[c][s].first << " differs");
           break;  // the first stage that differs is the guilty one
         }
       }

@@ -42,16 +42,19 @@ RenderScene scene_of(const std::vector<Sheet>& sheets, float ior) {
     std::vector<std::uint32_t> indices;
     for (int j = 0; j <= s.rows; ++j)
       for (int i = 0; i <= s.columns; ++i)
-        p.push_back({static_cast<float>(s.x * (2.0 * i / s.columns - 1)), static_cast<float>(s.y), static_cast<float>(s.z * (2.0 * j / s.rows - 1))});
+        p.push_back({static_cast<float>(s.x * (2.0 * i / s.columns - 1)), static_cast<float>(s.y),
+                     static_cast<float>(s.z * (2.0 * j / s.rows - 1))});
     for (int j = 0; j < s.rows; ++j)
       for (int i = 0; i < s.columns; ++i) {
-        const std::uint32_t a = static_cast<std::uint32_t>(j * (s.columns + 1) + i), b = a + 1, c = a + static_cast<std::uint32_t>(s.columns) + 1, d = c + 1;
+        const std::uint32_t a = static_cast<std::uint32_t>(j * (s.columns + 1) + i), b = a + 1,
+                            c = a + static_cast<std::uint32_t>(s.columns) + 1, d = c + 1;
         indices.insert(indices.end(), {a, c, d, a, d, b});
       }
     const std::vector<Vec3f> normals(p.size(), Vec3f{0, 1, 0});
     MeshView mesh;
     mesh.positions_world = p.data(), mesh.normals_world = normals.data(), mesh.indices = indices.data();
-    mesh.vertex_count = static_cast<std::uint32_t>(p.size()), mesh.index_count = static_cast<std::uint32_t>(indices.size());
+    mesh.vertex_count = static_cast<std::uint32_t>(p.size()),
+    mesh.index_count = static_cast<std::uint32_t>(indices.size());
     append_mesh(scene.geometry, mesh);
   }
   scene.waters.push_back(still_water(1000, ior));
@@ -76,7 +79,8 @@ struct Unculled : Program {
 };
 
 template <class Program>
-VisibilityBuffer draw(const RenderScene& scene, const Program& program, const PassSettings& pass, std::uint64_t& capped) {
+VisibilityBuffer draw(const RenderScene& scene, const Program& program, const PassSettings& pass,
+                      std::uint64_t& capped) {
   const std::vector<BinItem> items = bin_geometry(scene.geometry, scene.materials, program, pass, 4);
   capped = 0;
   for (const BinItem& item : items) capped += item.subdivision_capped;
@@ -87,7 +91,8 @@ VisibilityBuffer draw(const RenderScene& scene, const Program& program, const Pa
 
 // Culling changes no pixel. (Off the frame, triangles that culling spares may reach the level cap.)
 template <class Program>
-void check_culling(const RenderScene& scene, const Program& program, const Unculled<Program>& unculled, const PassSettings& pass) {
+void check_culling(const RenderScene& scene, const Program& program, const Unculled<Program>& unculled,
+                   const PassSettings& pass) {
   std::uint64_t capped = 0;
   const VisibilityBuffer culled = draw(scene, program, pass, capped), all = draw(scene, unculled, pass, capped);
   long different = 0, drawn = 0;
@@ -111,7 +116,9 @@ double distance_to(const RefractionOracle& oracle, const Camera& camera, int x, 
   for (const double r : {0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5})
     for (int k = 0; k < (r == 0.0 ? 1 : 48); ++k) {
       const double angle = 6.283185307179586 * k / 48;
-      if (oracle.trace(camera, kWidth, kHeight, x + 0.5 + r * std::cos(angle), y + 0.5 + r * std::sin(angle)).hit_id == id) return r;
+      if (oracle.trace(camera, kWidth, kHeight, x + 0.5 + r * std::cos(angle), y + 0.5 + r * std::sin(angle)).hit_id ==
+          id)
+        return r;
     }
   return 1;
 }
@@ -195,11 +202,13 @@ TEST_CASE("culling: chunks that a pass leaves out would not have shown, direct, 
       INFO(name << ", " << placed.name);
       const View view = make_view(placed.camera, kWidth, kHeight, {0, 0});
       const WaterPass water = pass_of(scene.waters[0], view);
-      check_culling(scene, DirectProgram{view, water.frustum}, Unculled<DirectProgram>{{view, water.frustum}}, water.pass);
+      check_culling(scene, DirectProgram{view, water.frustum}, Unculled<DirectProgram>{{view, water.frustum}},
+                    water.pass);
       check_culling(scene, RefractedProgram{{water, view}}, Unculled<RefractedProgram>{{{water, view}}}, water.pass);
       if (!water.optics.eye_below) continue;
       const WaterPass mirrored = mirrored_pass(water);
-      check_culling(scene, MirroredProgram{{mirrored, view}}, Unculled<MirroredProgram>{{{mirrored, view}}}, mirrored.pass);
+      check_culling(scene, MirroredProgram{{mirrored, view}}, Unculled<MirroredProgram>{{{mirrored, view}}},
+                    mirrored.pass);
     }
   }
 }
