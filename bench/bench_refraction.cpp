@@ -1,0 +1,105 @@
+// refraction/: the functions of the broad and the narrow phase.
+#include <vector>
+
+#include "bench/harness.h"
+#include "bench/kernels.h"
+#include "bench/scenes.h"
+#include "bench/stages.h"
+#include "refraction/water_region.h"
+
+namespace shoal::bench {
+
+namespace {
+
+constexpr std::size_t kPoints = 1024;
+
+// The eye of pool's camera above its water, and points in it.
+struct Water {
+  Stages stages{pool_scene(kPoolSizes[0].triangles), kWidth, kHeight, 1};
+  std::vector<float> points, ends;  // edges go from a point to its end: some centimetres, as in a mesh
+  std::vector<float> far_m, across_m;
+
+  Water() {
+    place_water(stages.frame(), find_method("two-phase", isa()).kernels);
+    const WaterBody& body = *pass().body;
+    Random random;
+    points.resize(3 * kPoints), ends.resize(3 * kPoints);
+    for (std::size_t i = 0; i < kPoints; ++i) {
+      const Vec3f p = body.origin + body.axis_x * random.between(-3, 3) + body.axis_z * random.between(-3, 3) -
+                      body.normal * random.between(0.01f, 2);
+      const Vec3f q = p + Vec3f{random.between(-0.05f, 0.05f), 0, random.between(-0.05f, 0.05f)};
+      points[i] = p.x, points[kPoints + i] = p.y, points[2 * kPoints + i] = p.z;
+      ends[i] = q.x, ends[kPoints + i] = q.y, ends[2 * kPoints + i] = q.z;
+      far_m.push_back(random.between(0.01f, 2));
+      across_m.push_back(random.between(0, 15));
+    }
+  }
+  const WaterPass& pass() { return stages.frame().water.front(); }
+};
+
+// Runs `kernel`(Water&, out), which does kPoints points.
+template <class Kernel>
+void points(benchmark::State& state, Kernel kernel) {
+  Water water;
+  std::vector<float> out(3 * kPoints);
+  for (auto _ : state) {
+    kernel(water, out.data());
+    benchmark::ClobberMemory();
+  }
+  count_items(state, "point", kPoints);
+  count_items(state, "16lanes", kPoints / 16.0);
+}
+
+void exact_rays(benchmark::State& state) {
+  Water water;
+  float out[16];
+  const std::size_t region = water.stages.regions() / 2;
+  for (auto _ : state) {
+    refraction_kernels(isa()).exact_ray(water.pass().optics, water.stages.frame(), region, out);
+    benchmark::DoNotOptimize(out);
+  }
+  count_items(state, "pix", kRegionSize * kRegionSize);
+  count_items(state, "block", kRegionSize * kRegionSize / 16.0);
+}
+
+// All pixels of the frame against the direct visibility buffer.
+void confirm(benchmark::State& state, std::uint64_t triangles, bool by_neighbours) {
+  Stages stages(pool_scene(triangles), kWidth, kHeight, 1);
+  stages.front_end();
+  stages.tiles();
+  std::int32_t out[16];
+  for (auto _ : state) {
+    stages.for_each_region(
+        [&](std::size_t region) { refraction_kernels(isa()).confirm(stages.frame(), by_neighbours, region, out); });
+    benchmark::DoNotOptimize(out);
+  }
+  count_items(state, "pix", double{kWidth} * kHeight);
+}
+
+}  // namespace
+
+void register_benchmarks() {
+  const RefractionKernels& kernels = refraction_kernels(isa());
+  add("path_solver/pool/1024", [&](auto& state) {
+    points(state, [&](Water& w, float* out) {
+      kernels.virtual_distance(w.pass().map, w.far_m.data(), w.across_m.data(), kPoints, out);
+    });
+  });
+  add("virtual_position/pool/1024", [&](auto& state) {
+    points(state, [&](Water& w, float* out) { kernels.virtual_position(w.pass().map, w.points.data(), kPoints, out); });
+  });
+  add("edge_deviation/pool/1024", [&](auto& state) {
+    points(state, [&](Water& w, float* out) {
+      kernels.edge_deviation(w.pass().map, w.stages.frame().view, w.points.data(), w.ends.data(), kPoints, out);
+    });
+  });
+  add("exact_ray/pool/64x64", exact_rays);
+  for (const SizedScene& size : kPoolSizes) {
+    for (const bool by_neighbours : {false, true})
+      add(std::string(by_neighbours ? "confirm_by_neighbours" : "confirm_own") + "/pool/" + size.size,
+          [=](auto& state) { confirm(state, size.triangles, by_neighbours); })
+          ->Unit(benchmark::kMillisecond);
+  }
+}
+
+}  // namespace shoal::bench

@@ -1,0 +1,89 @@
+// Kernels that a suite calls by themselves. kernels_<suite>.cpp is compiled once an ISA and fills one table an ISA.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/isa.h"
+#include "raster/surface.h"
+#include "refraction/frame_data.h"
+
+#if defined(__x86_64__)
+#define SHOAL_BENCH_ISAS(X, Type, name) \
+  X(Type, name, kScalar, isa_scalar)    \
+  X(Type, name, kSse42, isa_sse42) X(Type, name, kAvx2, isa_avx2) X(Type, name, kAvx512, isa_avx512)
+#elif defined(__aarch64__)
+#define SHOAL_BENCH_ISAS(X, Type, name) X(Type, name, kScalar, isa_scalar) X(Type, name, kNeon, isa_neon)
+#else
+#define SHOAL_BENCH_ISAS(X, Type, name) X(Type, name, kScalar, isa_scalar)
+#endif
+#define SHOAL_BENCH_DECLARE(Type, name, kind, isa_namespace) const Type& name##_##isa_namespace();
+#define SHOAL_BENCH_CASE(Type, name, kind, isa_namespace) \
+  case Isa::kind:                                         \
+    return name##_##isa_namespace();
+// Declares name(Isa), the table of one ISA.
+#define SHOAL_BENCH_TABLE(Type, name)                \
+  SHOAL_BENCH_ISAS(SHOAL_BENCH_DECLARE, Type, name)  \
+  inline const Type& name(Isa isa) {                 \
+    switch (isa) {                                   \
+      SHOAL_BENCH_ISAS(SHOAL_BENCH_CASE, Type, name) \
+      default:                                       \
+        return name##_isa_scalar();                  \
+    }                                                \
+  }
+// The name of this translation unit's table.
+#define SHOAL_BENCH_PASTE_NAME(a, b) a##_##b
+#define SHOAL_BENCH_PASTE(a, b) SHOAL_BENCH_PASTE_NAME(a, b)
+#define SHOAL_BENCH_THIS_TABLE(name) SHOAL_BENCH_PASTE(name, SHOAL_ISA_NS)
+
+namespace shoal::bench {
+
+// A function of one value, over an array: `count` is a multiple of 16.
+struct MathKernel {
+  const char* name;
+  float lo, hi;  // the domain that it is measured over
+  void (*run)(const float* in, float* out, std::size_t count);
+};
+struct CoreKernels {
+  const MathKernel* math;
+  std::size_t math_count;
+};
+SHOAL_BENCH_TABLE(CoreKernels, core_kernels)
+
+// Three full-frame targets in 4 x 4 blocks; depth is the visibility buffer's.
+struct FloatTargets {
+  AlignedArray<float> position[3], normal[3], color[3];
+};
+struct Rgba8Targets {
+  AlignedArray<std::int32_t> normal, color, material;
+};
+
+struct RasterKernels {
+  // Visible ids of one 64-pixel region to three targets: what the frame's resolve does, and stores.
+  void (*fill_float)(const FrameData&, FloatTargets&, std::size_t region);
+  void (*fill_rgba8)(const FrameData&, Rgba8Targets&, std::size_t region);
+  // Sixteen ids a block to attributes; the sum of their depths goes to out, sixteen floats.
+  void (*resolve)(const GeometryView&, const View&, const std::int32_t* ids, std::size_t blocks, float* out);
+  // A row of blocks along u, uv_step apart by pixel; spread scales the derivatives of every other pixel.
+  void (*sample)(const Texture&, const Sampler&, float uv_step, float spread, std::size_t blocks, float* out);
+  void (*shade)(const GBufferBlock*, const Lighting&, std::size_t blocks, float* out);
+  // Planes of x, y, z (unit) to planes of r, g, b; sixteen a block.
+  void (*sky)(const Background&, const float* directions, std::size_t blocks, float* out);
+  // Planes of linear r, g, b to RGB bytes; aces: with the tone curve.
+  void (*encode)(const float* linear, bool aces, std::size_t blocks, std::uint8_t* out);
+};
+SHOAL_BENCH_TABLE(RasterKernels, raster_kernels)
+
+// Points are planes of x, y, z, `count` (a multiple of 16) floats each.
+struct RefractionKernels {
+  void (*virtual_distance)(const BroadPhase&, const float* far_m, const float* across_m, std::size_t count, float* out);
+  void (*virtual_position)(const BroadPhase&, const float* points, std::size_t count, float* out);
+  void (*edge_deviation)(const BroadPhase&, const View&, const float* a, const float* b, std::size_t count, float* out);
+  // View rays of one 64-pixel region to their refracted and reflected rays and differentials.
+  void (*exact_ray)(const BroadPhase&, const FrameData&, std::size_t region, float* out);
+  // confirm_hit of view rays against f.direct; by_neighbours: as if no pixel knew its own triangle.
+  void (*confirm)(const FrameData&, bool by_neighbours, std::size_t region, std::int32_t* out);
+};
+SHOAL_BENCH_TABLE(RefractionKernels, refraction_kernels)
+
+}  // namespace shoal::bench

@@ -1,0 +1,77 @@
+// The broad and the narrow phase's functions, sixteen points or pixels at a time, one copy an ISA.
+#include "bench/kernels.h"
+#include "refraction/broad/broad_phase.h"
+#include "refraction/narrow/confirm_hit.h"
+#include "refraction/narrow/exact_ray.h"
+#include "refraction/pixel_stage.h"
+
+namespace shoal::bench::inline SHOAL_ISA_NS {
+
+namespace {
+
+SHOAL_INLINE Vec3<WideF> load_point(const float* planes, std::size_t count, std::size_t at) {
+  return {WideF::load(planes + at), WideF::load(planes + count + at), WideF::load(planes + 2 * count + at)};
+}
+
+void run_virtual_distance(const BroadPhase& bp, const float* far_m, const float* across_m, std::size_t count,
+                          float* out) {
+  for (std::size_t i = 0; i < count; i += 16)
+    virtual_distance(bp.path, bp.eye_is_thin, WideF(bp.eye_distance_m), WideF::load(far_m + i),
+                     WideF::load(across_m + i))
+        .store(out + i);
+}
+
+void run_virtual_position(const BroadPhase& bp, const float* points, std::size_t count, float* out) {
+  for (std::size_t i = 0; i < count; i += 16) {
+    const Vec3<WideF> v = virtual_position(bp, load_point(points, count, i));
+    v.x.store(out + i), v.y.store(out + count + i), v.z.store(out + 2 * count + i);
+  }
+}
+
+void run_edge_deviation(const BroadPhase& bp, const View& view, const float* a, const float* b, std::size_t count,
+                        float* out) {
+  for (std::size_t i = 0; i < count; i += 16)
+    edge_deviation_px(bp, view, load_point(a, count, i), load_point(b, count, i)).store(out + i);
+}
+
+SHOAL_INLINE WideF sum_of(const RayDifferential<WideF>& d) {
+  return (dot(d.origin_dx, d.origin_dy) + dot(d.direction_dx, d.direction_dy));
+}
+
+void run_exact_ray(const BroadPhase& bp, const FrameData& f, std::size_t region, float* out) {
+  const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
+  WideF sum(0.0f);
+  for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
+    const Ray<WideF> ray = block_rays(f.view, block);
+    const ExactRay<WideF> hit = exact_ray(bp, ray);
+    const RayDifferential<WideF> crossing = at_crossing(ray, differential, hit);
+    sum = sum + hit.reflectance + dot(hit.refracted, hit.reflected) + sum_of(refracted_differential(crossing, hit)) +
+          sum_of(reflected_differential(crossing, hit));
+  });
+  sum.store(out);
+}
+
+void run_confirm(const FrameData& f, bool by_neighbours, std::size_t region, std::int32_t* out) {
+  WideI last(0);
+  for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
+    const WideI shown = WideI::load(f.direct.id.data() + block.offset);
+    const WideI own = by_neighbours ? WideI(kNoId) : shown;
+    const WideI x = WideI(block.x_px) + block_x(), y = WideI(block.y_px) + block_y();
+    const WideM lanes = is_triangle(shown) & block.in_frame;
+    if (none(lanes)) return;
+    last = last ^ confirm_hit(f.geometry, f.direct, block_rays(f.view, block), own, x, y, lanes);
+  });
+  last.store(out);
+}
+
+}  // namespace
+
+}  // namespace shoal::bench::inline SHOAL_ISA_NS
+
+namespace shoal::bench {
+const RefractionKernels& SHOAL_BENCH_THIS_TABLE(refraction_kernels)() {
+  static constexpr RefractionKernels table{&run_virtual_distance, &run_virtual_position, &run_edge_deviation,
+                                           &run_exact_ray, &run_confirm};
+  return table;
+}
+}  // namespace shoal::bench

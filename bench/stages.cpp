@@ -1,0 +1,72 @@
+#include "bench/stages.h"
+
+#include <algorithm>
+
+#include "bench/harness.h"
+#include "bench/scenes.h"
+
+namespace shoal::bench {
+
+Stages::Stages(const RenderScene& scene, int width_px, int height_px, int threads)
+    : kernels_(frame_kernels(isa())), pool_(threads) {
+  FrameData& f = frame_;
+  f.scene = &scene;
+  f.settings.width_px = width_px, f.settings.height_px = height_px;
+  f.grid = make_frame_grid(width_px, height_px);
+  f.bin_grid = make_bin_grid(width_px, height_px, f.settings.tile_px);
+  const Geometry& g = scene.geometry;
+  f.geometry = {g.x_world.data(),
+                g.y_world.data(),
+                g.z_world.data(),
+                {g.corner0.data(), g.corner1.data(), g.corner2.data()},
+                g.chunks.data(),
+                g.vertices.data(),
+                g.colors.empty() ? nullptr : g.colors.data(),
+                g.triangles.data(),
+                scene.materials.materials.data(),
+                scene.materials.textures.data()};
+  // As the renderer does: about 128 items, of at least four chunks.
+  const std::size_t chunks = g.chunks.size();
+  f.bins.chunk_count = static_cast<std::uint32_t>(chunks);
+  f.bins.chunks_per_item = static_cast<std::uint32_t>(std::max<std::size_t>(4, (chunks + 127) / 128));
+  f.bins.items.resize((chunks + f.bins.chunks_per_item - 1) / f.bins.chunks_per_item);
+  f.direct.resize(f.grid);
+  look(first_camera(scene));
+}
+
+void Stages::look(const Camera& camera) {
+  FrameData& f = frame_;
+  const int width = f.settings.width_px, height = f.settings.height_px;
+  f.view = make_view(camera, width, height, {0, 0});
+  f.frustum = make_frustum(f.view, 0, 0, width - 1, height - 1);
+  f.direct_pass = PassSettings{};
+  f.direct_pass.width_px = width, f.direct_pass.height_px = height;
+  f.direct_pass.centre_px = f.view.centre_px;
+  f.direct_pass.grid = f.bin_grid;
+  f.direct_pass.x_max = width - 1, f.direct_pass.y_max = height - 1;
+}
+
+void Stages::front_end() {
+  pool_.for_each(frame_.bins.items.size(), [&](std::size_t item, int) { kernels_.direct_front_end(frame_, item); });
+}
+
+void Stages::tiles() {
+  const std::size_t count =
+      static_cast<std::size_t>(frame_.bin_grid.tiles_x) * static_cast<std::size_t>(frame_.bin_grid.tiles_y);
+  pool_.for_each(count, [&](std::size_t tile, int) {
+    kernels_.draw_tile(frame_, frame_.direct, kernels_.direct_alpha, nullptr, nullptr, tile);
+  });
+}
+
+std::uint64_t Stages::triangles_in() const {
+  std::uint64_t sum = 0;
+  for (const BinItem& item : frame_.bins.items) sum += item.triangles_in;
+  return sum;
+}
+std::uint64_t Stages::triangles_out() const {
+  std::uint64_t sum = 0;
+  for (const BinItem& item : frame_.bins.items) sum += item.triangles_out;
+  return sum;
+}
+
+}  // namespace shoal::bench
