@@ -1,0 +1,82 @@
+#!/bin/bash
+# Goldens: small frames of the built-in scenes, every camera and method, equal to the digest.
+#
+#   run.sh SHOAL            compares; a failure leaves actual, expected and difference pictures in out/goldens/
+#   run.sh SHOAL --update   writes what SHOAL makes instead (scripts/update_goldens does this, and asks for the reason)
+#
+# A golden is SCENE_CAMERA_METHOD.txt, the digest of each stage, and .png, the picture. There is no tolerance. A golden
+# that is missing fails, and so does one that belongs to no scene, camera or method.
+set -uo pipefail
+shoal=$(realpath "${1:?usage: run.sh SHOAL [--update]}")
+update=${2:-}
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+goldens=tests/goldens
+out=out/goldens
+rm -rf $out
+mkdir -p $out
+scenes=(box pool)
+options=(--triangles 2000 --size 160x90 --quiet)
+status=0 compared=0
+declare -A known
+complain() { echo "$*"; status=1; }
+
+cameras_of() {
+  "$shoal" info "$1" --triangles 2000 | awk '/^[^ ]/ { on = $1 == "cameras"; next } on && /^  [^ ]/ { print $1 }'
+}
+
+# same NAME: digests, and pixels of the picture.
+same() {
+  cmp -s "$goldens/$1.txt" "$out/$1.txt" && [[ -f $goldens/$1.png ]] &&
+    "$shoal" diff --quiet "$goldens/$1.png" "$out/$1.actual.png"
+}
+
+# compare NAME: the first stage that differs, and the first pixel of the picture that does.
+compare() {
+  local name=$1 stage expected=$goldens/$1.png
+  compared=$((compared + 1))
+  if [[ ! -f $goldens/$name.txt || ! -f $expected ]]; then
+    complain "$name: there is no such golden; look at $out/$name.actual.png, then scripts/update_goldens --reason TEXT"
+    return
+  fi
+  if same "$name"; then
+    rm -f "$out/$name".*
+    return
+  fi
+  cp "$expected" "$out/$name.expected.png"
+  stage=$(diff "$goldens/$name.txt" "$out/$name.txt" | awk '$1 == "<" || $1 == ">" { print $3; exit }')
+  local pixel
+  pixel=$("$shoal" diff "$expected" "$out/$name.actual.png" --map "$out/$name.difference.png" | awk '$1 == "first"')
+  complain "$name: first stage that differs: ${stage:-none}; pixel: ${pixel:-none of the picture}; see $out/$name.*.png"
+}
+
+for scene in "${scenes[@]}"; do
+  for camera in $(cameras_of "$scene"); do
+    for method in $("$shoal" list methods | awk '{ print $1 }'); do
+      name=${scene}_${camera}_$method
+      known[$name]=1
+      "$shoal" render "$scene" --camera "$camera" --method "$method" "${options[@]}" --digest -o "$out/$name.actual.png" \
+        >"$out/$name.txt" || { complain "$name: was not rendered"; continue; }
+      if [[ $update == --update ]]; then
+        compared=$((compared + 1))
+        if same "$name"; then continue; fi
+        mv "$out/$name.txt" "$goldens/$name.txt"
+        mv "$out/$name.actual.png" "$goldens/$name.png"
+        echo "$name"
+      else
+        compare "$name"
+      fi
+    done
+  done
+done
+for file in "$goldens"/*.txt; do
+  name=$(basename "$file" .txt)
+  [[ -e $file && -z ${known[$name]:-} ]] || continue
+  if [[ $update == --update ]]; then
+    rm -f "$goldens/$name.txt" "$goldens/$name.png"
+    echo "$name (removed)"
+  else
+    complain "$name: belongs to no scene, camera or method"
+  fi
+done
+if (( compared < 10 )); then complain "only $compared frames were rendered"; fi
+exit $status
