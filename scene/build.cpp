@@ -288,6 +288,7 @@ PlacedCamera framing_camera(Vec3f lo, Vec3f hi) {
 
 constexpr Vec3f kDefaultToSun{0.40824829f, 0.81649658f, 0.40824829f};
 constexpr Vec3f kDefaultSunIrradiance{2.6f, 2.45f, 2.2f};
+constexpr float kMaxInverseRange2 = 1e12f;  // a micrometre: its square stays finite far away
 
 bool is_lit(const Scene& scene) {
   for (const Node& node : scene.nodes) {
@@ -314,25 +315,55 @@ void ambient_from_background(Lighting& lighting) {
   }
 }
 
+// A point or spot light.
+// Source: KHR_lights_punctual, "Inner and Outer Cone Angles" (the falloff's scale and offset).
+PunctualLight place_lamp(const Scene& scene, const Node& node, const LightSpec& spec, Vec3f direction) {
+  PunctualLight light;
+  light.position_world = column(node.world_from_local, 3);
+  if (!is_finite(light.position_world)) fail(scene, node, "the light's place is not finite; expected a finite position");
+  light.direction_world = direction;
+  light.intensity = spec.color * spec.intensity;
+  if (spec.range_m > 0) {
+    const float inverse = 1.0f / spec.range_m;
+    light.inverse_range2 = std::min(inverse * inverse, kMaxInverseRange2);
+  }
+  if (spec.kind == LightKind::kSpot) {
+    const float outer = det_cos(spec.outer_cone);
+    light.cone_scale = 1.0f / std::max(0.001f, det_cos(spec.inner_cone) - outer);
+    light.cone_offset = -outer * light.cone_scale;
+  }
+  return light;
+}
+
 Lighting make_lighting(const Scene& scene) {
   Lighting lighting;
   const bool lit = is_lit(scene);
   for (const Node& node : scene.nodes) {
     if (node.light == kNoIndex) continue;
     const LightSpec& spec = scene.lights[static_cast<std::size_t>(node.light)];
+    if (spec.kind == LightKind::kPoint) {
+      lighting.punctual.push_back(place_lamp(scene, node, spec, {0, -1, 0}));
+      continue;
+    }
     const Vec3f direction = normalize_or_zero(-column(node.world_from_local, 2));
     if (is_zero(direction)) fail(scene, node, "the light's transform is degenerate; expected a direction");
-    lighting.directional.push_back({direction, spec.color * spec.intensity});
+    if (spec.kind == LightKind::kSpot) {
+      lighting.punctual.push_back(place_lamp(scene, node, spec, direction));
+    } else {
+      lighting.directional.push_back({direction, spec.color * spec.intensity});
+    }
   }
-  if (lit && lighting.directional.empty()) lighting.directional.push_back({-kDefaultToSun, kDefaultSunIrradiance});
+  if (lit && lighting.directional.empty() && lighting.punctual.empty()) lighting.directional.push_back({-kDefaultToSun, kDefaultSunIrradiance});
 
   if (scene.has_background) {
     lighting.background = scene.background;
   } else if (lit) {
-    const DirectionalLight& sun = lighting.directional[0];
     lighting.background.kind = Background::Kind::kSky;
-    lighting.background.to_sun_world = -sun.direction_world;
-    lighting.background.sun = sun.irradiance;
+    if (!lighting.directional.empty()) {
+      const DirectionalLight& sun = lighting.directional[0];
+      lighting.background.to_sun_world = -sun.direction_world;
+      lighting.background.sun = sun.irradiance;
+    }
   }
   if (lit) ambient_from_background(lighting);
   return lighting;

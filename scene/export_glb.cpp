@@ -362,9 +362,16 @@ void GlbWriter::add_cameras() {
 }
 
 void GlbWriter::add_lights() {
+  constexpr const char* kTypes[] = {"directional", "point", "spot"};
   for (const LightSpec& light : scene_.lights) {
-    root_["extensions"]["KHR_lights_punctual"]["lights"].push_back(
-        {{"type", "directional"}, {"color", exact(light.color)}, {"intensity", exact(light.intensity)}});
+    json out{{"type", kTypes[static_cast<std::size_t>(light.kind)]},
+             {"color", exact(light.color)},
+             {"intensity", exact(light.intensity)}};
+    if (light.range_m > 0) out["range"] = exact(light.range_m);
+    if (light.kind == LightKind::kSpot) {
+      out["spot"] = {{"innerConeAngle", exact(light.inner_cone)}, {"outerConeAngle", exact(light.outer_cone)}};
+    }
+    root_["extensions"]["KHR_lights_punctual"]["lights"].push_back(std::move(out));
     use_extension("KHR_lights_punctual");
   }
 }

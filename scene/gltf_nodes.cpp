@@ -42,38 +42,42 @@ CameraSpec read_camera(const Document& document, const tinygltf::Camera& from, c
   return camera;
 }
 
-// Directional lights only; the result says where in the scene each light of the file is.
-std::vector<std::int32_t> read_lights(Document& document, Scene& scene) {
-  std::vector<std::int32_t> places;
-  for (std::size_t i = 0; i < document.model.lights.size(); ++i) {
-    const tinygltf::Light& from = document.model.lights[i];
-    const std::string label = label_of("lights", i, from.name);
-    if (from.type != "directional") {
-      if (from.type != "point" && from.type != "spot") {
-        fail(document.path, label + " has type '" + one_line(from.type, 40) + "'",
-             "expected directional, point or spot");
-      }
-      warn(document, from.type + " lights are not read yet");
-      places.push_back(kNoIndex);
-      continue;
+// Source: KHR_lights_punctual. tinygltf's range is 0 where the file gives none.
+LightSpec read_light(Document& document, const tinygltf::Light& from, const std::string& label) {
+  LightSpec light;
+  const auto check = [&](double value, const char* what) {
+    if (!(value >= 0 && value < kHuge)) {
+      fail(document.path, label + " has a " + what + " of " + std::to_string(value), "expected 0 or more");
     }
-    LightSpec light;
-    const auto check = [&](double value, const char* what) {
-      if (!(value >= 0 && value < kHuge)) {
-        fail(document.path, label + " has a " + what + " of " + std::to_string(value), "expected 0 or more");
-      }
-      return static_cast<float>(value);
-    };
-    light.intensity = check(from.intensity, "intensity");
-    if (from.color.size() == 3) {
-      light.color.x = check(from.color[0], "color");
-      light.color.y = check(from.color[1], "color");
-      light.color.z = check(from.color[2], "color");
-    }
-    places.push_back(static_cast<std::int32_t>(scene.lights.size()));
-    scene.lights.push_back(light);
+    return static_cast<float>(value);
+  };
+  light.intensity = check(from.intensity, "intensity");
+  if (from.color.size() == 3) {
+    light.color.x = check(from.color[0], "color");
+    light.color.y = check(from.color[1], "color");
+    light.color.z = check(from.color[2], "color");
   }
-  return places;
+  if (from.type == "directional") return light;
+  if (from.type != "point" && from.type != "spot") {
+    fail(document.path, label + " has type '" + one_line(from.type, 40) + "'", "expected directional, point or spot");
+  }
+  light.kind = from.type == "point" ? LightKind::kPoint : LightKind::kSpot;
+  light.range_m = check(from.range, "range");
+  if (light.kind == LightKind::kPoint) return light;
+  constexpr double kQuarterTurn = 1.5707965;  // as a float, so that an exported one is in
+  double inner = from.spot.innerConeAngle;
+  const double outer = from.spot.outerConeAngle;
+  if (!(inner >= 0 && outer > 0 && outer <= kQuarterTurn)) {
+    fail(document.path, label + " has cone angles of " + std::to_string(inner) + " and " + std::to_string(outer),
+         "expected 0 <= inner < outer <= pi / 2 radians");
+  }
+  if (inner > outer) {
+    warn(document, label + " has an inner cone wider than its outer one: the outer one is used");
+    inner = outer;
+  }
+  light.inner_cone = static_cast<float>(inner);
+  light.outer_cone = static_cast<float>(outer);
+  return light;
 }
 
 // Column-major in the file.
@@ -141,8 +145,7 @@ Bounds bounds_of(const Mesh& mesh) {
 
 class TreeReader {
  public:
-  TreeReader(Document& document, Scene& scene, std::vector<std::int32_t> light_places)
-      : document_(document), scene_(scene), light_places_(std::move(light_places)) {
+  TreeReader(Document& document, Scene& scene) : document_(document), scene_(scene) {
     for (const Mesh& mesh : scene.meshes) {
       bounds_.push_back(bounds_of(mesh));
       std::uint64_t triangles = 0;
@@ -239,16 +242,15 @@ class TreeReader {
       }
       // The index was checked in the file's JSON; the parsed copy is checked again, it costs nothing.
       const int light = value.IsObject() && value.Has("light") ? value.Get("light").GetNumberAsInt() : -1;
-      if (light < 0 || static_cast<std::size_t>(light) >= light_places_.size()) {
+      if (light < 0 || static_cast<std::size_t>(light) >= scene_.lights.size()) {
         fail(document_.path, label + " names light " + std::to_string(light), "expected one of the file's lights");
       }
-      node.light = light_places_[static_cast<std::size_t>(light)];
+      node.light = light;
     }
   }
 
   Document& document_;
   Scene& scene_;
-  std::vector<std::int32_t> light_places_;
   std::vector<Bounds> bounds_;
   std::vector<std::uint64_t> triangles_;
   std::vector<Affine> worlds_;
@@ -262,7 +264,10 @@ void read_nodes(Document& document, Scene& scene) {
   for (std::size_t i = 0; i < model.cameras.size(); ++i) {
     scene.cameras.push_back(read_camera(document, model.cameras[i], label_of("cameras", i, model.cameras[i].name)));
   }
-  TreeReader reader(document, scene, read_lights(document, scene));
+  for (std::size_t i = 0; i < model.lights.size(); ++i) {
+    scene.lights.push_back(read_light(document, model.lights[i], label_of("lights", i, model.lights[i].name)));
+  }
+  TreeReader reader(document, scene);
   read_background(document, model.asset.extras, "asset", scene);
   if (model.scenes.empty()) fail(document.path, "has no scene", "expected at least one");
   const auto first = static_cast<std::size_t>(model.defaultScene >= 0 ? model.defaultScene : 0);

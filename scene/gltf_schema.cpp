@@ -363,6 +363,10 @@ void Checker::check_cameras_and_lights() const {
     numbers((*lights)[i], "color", where, 3);
     number((*lights)[i], "intensity", where);
     number((*lights)[i], "range", where);
+    if (json* spot = object((*lights)[i], "spot", where)) {
+      number(*spot, "innerConeAngle", where + ".spot");
+      number(*spot, "outerConeAngle", where + ".spot");
+    }
   }
 }
 
