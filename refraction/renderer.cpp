@@ -60,6 +60,7 @@ PassBins make_bins(std::size_t chunk_count) {
 }  // namespace
 
 struct Renderer::Impl {
+  std::unique_ptr<RenderScene> moved;  // the renderer's own, where the scene is animated
   const RenderScene& scene;
   const FrameKernels& kernels;
   const Method& method;
@@ -70,7 +71,8 @@ struct Renderer::Impl {
   StageClock clock;
 
   Impl(const RenderScene& s, const FrameSettings& settings)
-      : scene(s), kernels(frame_kernels(settings.isa)), method(find_method(settings.method, settings.isa)),
+      : moved(s.moves() ? std::make_unique<RenderScene>(s) : nullptr), scene(moved ? *moved : s),
+        kernels(frame_kernels(settings.isa)), method(find_method(settings.method, settings.isa)),
         pool(settings.threads > 0 ? settings.threads : available_threads()) {
     build_outlines();
     FrameData& f = frame;
@@ -89,8 +91,10 @@ struct Renderer::Impl {
   void build_outlines() {
     Material surface;
     surface.double_sided = true;
-    outline_materials.materials.push_back(surface);
+    outline_materials.materials.assign(1, surface);
+    outlines = Geometry{};
     std::vector<std::uint32_t>& first_chunk = frame.outline_first_chunk;
+    first_chunk.clear();
     for (const WaterBody& body : scene.waters) {
       first_chunk.push_back(static_cast<std::uint32_t>(outlines.chunks.size()));
       const std::vector<Vec3f> normals(body.outline.size(), body.normal);
@@ -146,12 +150,23 @@ struct Renderer::Impl {
 
   void sample(StageDigests* digests) { render_sample(frame, kernels, method.kernels, pool, clock, digests); }
 
-  void render(const Camera& camera, Frame& out) {
+  // Animated scenes: what moves, where it is at this time.
+  void move(double time_s) {
+    update_render_scene(*moved, time_s, &pool);
+    if (!scene.waters.empty()) {
+      build_outlines();
+      frame.water_geometry = view_of(outlines, outline_materials);
+    }
+    clock.lap("animate");
+  }
+
+  void render(const Camera& camera, double time_s, Frame& out) {
     const FloatModeGuard mode;
     FrameData& f = frame;
     StageDigests digests;
     StageDigests* wanted = f.settings.digests ? &digests : nullptr;
     clock.reset();
+    if (moved) move(time_s);
     f.water_pixels = f.subdivision_capped = 0;
     f.sample_count = f.settings.spp;
     f.sample = 0;
@@ -199,7 +214,7 @@ Renderer::Renderer(const RenderScene& scene, const FrameSettings& settings) {
 }
 Renderer::~Renderer() = default;
 
-void Renderer::render(const Camera& camera, double /*time_s*/, Frame& frame) { impl_->render(camera, frame); }
+void Renderer::render(const Camera& camera, double time_s, Frame& frame) { impl_->render(camera, time_s, frame); }
 int Renderer::threads() const { return impl_->pool.threads(); }
 
 std::string picture_digest(const Frame& frame) { return digest_hex(frame.srgb8.data(), frame.srgb8.size()); }

@@ -68,7 +68,8 @@ struct Frame {
   std::uint64_t subdivision_capped = 0;  // triangles that reached the subdivision's level cap
 };
 
-// Holds what does not depend on camera and time: chunks, buffers, threads. One frame at a time.
+// Holds what does not depend on camera and time: chunks, buffers, threads; of an animated scene a copy of its own, which
+// it moves. One frame at a time.
 class Renderer {
  public:
   // Throws UsageError for settings out of their domain or an unknown method. The scene must outlive the renderer.
@@ -77,7 +78,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  //   time_s  seconds; the water's surface moves with it
+  //   camera  where it is at that time (camera_at)
+  //   time_s  seconds; animations and the water's surface move with it
   void render(const Camera& camera, double time_s, Frame& frame);
 
   int threads() const;
