@@ -132,16 +132,23 @@ SHOAL_INLINE F punctual_falloff(const PunctualLight& light, Vec3<F> position_wor
   return window * (cone * cone) / max(distance2, F(kMinLightDistance2));
 }
 
+// A sun that nothing is in the way of.
+struct OpenSun {
+  template <class F>
+  SHOAL_INLINE Vec3<F> reach(Vec3<F> irradiance, MaskOf<F>) const { return irradiance; }
+};
+
 // Radiance of surface points towards the viewer.
 //   s               what is seen
 //   unlit           lanes that are their base colour
 //   view_direction  unit, from the point towards the eye
 //   light_scale     transmittance of the way from the light to the point (1 in air), for lights and ambient alike
+//   sun             what reaches the points of the first directional light: reach(irradiance, lanes that face it)
 // Returns linear radiance; the unlit lanes' is exactly their base colour.
 // Source: glTF 2.0, appendix B; KHR_materials_unlit. Error: see the parts.
-template <class F>
+template <class F, class Sun = OpenSun>
 SHOAL_INLINE Vec3<F> shade(const SurfaceSample<F>& s, MaskOf<F> unlit, Vec3<F> view_direction, const Lighting& lighting,
-                           Vec3<F> light_scale) {
+                           Vec3<F> light_scale, const Sun& sun = {}) {
   if (all(unlit)) return s.base_color;
   const Reflectance<F> r = make_reflectance<F>(s, view_direction);
   Vec3<F> reflected = reflect_ambient<F>(s, r, lighting);
@@ -149,7 +156,9 @@ SHOAL_INLINE Vec3<F> shade(const SurfaceSample<F>& s, MaskOf<F> unlit, Vec3<F> v
     const Vec3<F> to_light = -broadcast<F>(light.direction_world);
     const F n_dot_l = dot(r.normal, to_light);
     if (none(n_dot_l > F(0.0f))) continue;
-    reflected = reflected + broadcast<F>(light.irradiance) * reflect_light<F>(r, to_light, n_dot_l);
+    Vec3<F> irradiance = broadcast<F>(light.irradiance);
+    if (&light == lighting.directional.data()) irradiance = sun.template reach<F>(irradiance, n_dot_l > F(0.0f));
+    reflected = reflected + irradiance * reflect_light<F>(r, to_light, n_dot_l);
   }
   for (const PunctualLight& light : lighting.punctual) {
     Vec3<F> to_light;

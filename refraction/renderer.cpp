@@ -26,6 +26,8 @@ void check_settings(const FrameSettings& s, const RenderScene& scene) {
   check(s.tile_px >= 16 && s.tile_px <= 256 && (s.tile_px & (s.tile_px - 1)) == 0,
         "tile " + std::to_string(s.tile_px) + " is not allowed; expected a power of two from 16 to 256");
   check(s.anisotropy == 1, "anisotropy " + std::to_string(s.anisotropy) + " has not come yet; expected 1");
+  check(s.shadow_map_px >= 256 && s.shadow_map_px <= 8192 && (s.shadow_map_px & (s.shadow_map_px - 1)) == 0,
+        "shadow map size " + std::to_string(s.shadow_map_px) + " is not allowed; expected a power of two from 256 to 8192");
   check(s.exposure_stops >= -100.0f && s.exposure_stops <= 100.0f, "exposure is out of range; expected -100 to 100 stops");
   const std::vector<Isa> isas = supported_isas();
   check(std::find(isas.begin(), isas.end(), s.isa) != isas.end(), std::string("isa ") + isa_name(s.isa) + " does not run on this machine");
@@ -84,6 +86,7 @@ struct Renderer::Impl {
     f.water_geometry = view_of(outlines, outline_materials);
     f.bins = make_bins(scene.geometry.chunks.size());
     f.water_bins.items.resize(scene.waters.size());
+    if (!moved) build_shadows(f, kernels, pool);
     allocate();
   }
 
@@ -158,6 +161,8 @@ struct Renderer::Impl {
       frame.water_geometry = view_of(outlines, outline_materials);
     }
     clock.lap("animate");
+    build_shadows(frame, kernels, pool);
+    clock.lap("shadow.map");
   }
 
   void render(const Camera& camera, double time_s, Frame& out) {
@@ -168,6 +173,7 @@ struct Renderer::Impl {
     clock.reset();
     if (moved) move(time_s);
     f.water_pixels = f.subdivision_capped = 0;
+    if (wanted != nullptr) digests.shadow(f), clock.skip();
     f.sample_count = f.settings.spp;
     f.sample = 0;
     if (f.settings.spp > 1) {

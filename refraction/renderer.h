@@ -15,6 +15,8 @@
 
 namespace shoal {
 
+// Of the sun, the first directional light.
+enum class Shadows : std::uint8_t { kOff, kMap };
 enum class ToneMap : std::uint8_t { kNone, kAces };
 
 // Every buffer that can be asked for beside the picture. Names and channels: aov_infos().
@@ -41,6 +43,8 @@ struct FrameSettings {
   int tile_px = 64;                                   // a power of two, 16 to 256
   Isa isa = Isa::kScalar;                             // see supported_isas()
   int anisotropy = 1;
+  Shadows shadows = Shadows::kMap;
+  int shadow_map_px = 4096;                           // a power of two, 256 to 8192
   float exposure_stops = 0;
   ToneMap tone_map = ToneMap::kNone;
   std::uint32_t aovs = 0;      // bit 1 << int(Aov)
