@@ -6,6 +6,8 @@
 
 namespace shoal::inline SHOAL_ISA_NS {
 
+static_assert(kShadowCell == 8, "the look-up shifts by 3");
+
 // The farthest tap's centre is 1.5 texels off on either axis: on a plane, this much along the normal times the sine to
 // the sun clears all nine (their depths are those of the plane at their centres).
 inline constexpr float kNormalOffsetTexels = 2.2f;
@@ -51,6 +53,13 @@ __attribute__((noinline)) inline WideF level_visibility(const ShadowMap& map, Ve
     column_slot[i] = ((cx >> 2) << 4) + (cx & WideI(3));
     row_slot[i] = ((cy >> 2) * WideI(map.grid.blocks_x) << 4) + ((cy & WideI(3)) << 2);
   }
+  // Where no tap can differ from the middle one, it decides.
+  const WideF middle = gather(map.depth.data(), row_slot[1] + column_slot[1], lanes, zero);
+  const WideI cell = (to_int_trunc(row) >> 3) * WideI(map.grid.width_px / kShadowCell) + (to_int_trunc(column) >> 3);
+  const WideF steepness = gather(map.steepness.data(), cell, lanes, zero);
+  const WideM lit = middle + steepness <= nearest, dark = middle - steepness > nearest;
+  if (none(lanes & !(lit | dark))) return select(lit, one, zero);
+
   WideF seen = zero;
   for (int j = 0; j < 3; ++j) {
     WideF in_row = zero;
@@ -60,7 +69,7 @@ __attribute__((noinline)) inline WideF level_visibility(const ShadowMap& map, Ve
     }
     seen = seen + in_row * weight_y[j];
   }
-  return seen * WideF(0.25f);
+  return select(lit, one, select(dark, zero, seen * WideF(0.25f)));
 }
 
 // The same from the finest level that holds each point; 1 (lit) outside of all.

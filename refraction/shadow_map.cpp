@@ -144,6 +144,33 @@ std::vector<ShadowPass> passes_of(const ShadowMap& map, const GeometryView& cast
   return passes;
 }
 
+// One row of cells. A look-up that begins in a cell reaches two texels beyond it, and its middle tap is one texel from
+// the others along either axis.
+void measure_steepness(ShadowMap& map, int cell_row) {
+  constexpr int kRows = kShadowCell + 2;
+  const int size = map.grid.width_px, y0 = cell_row * kShadowCell;
+  const std::size_t width = static_cast<std::size_t>(size);
+  std::vector<float> texels(width * kRows), across(width + 2, 0.0f), down(width + 2, 0.0f);
+  for (int y = 0; y < kRows; ++y) {
+    const int row = std::min(y0 + y, size - 1);
+    float* to = texels.data() + width * static_cast<std::size_t>(y);
+    for (int x = 0; x < size; x += kBlockSize) std::copy_n(map.depth.data() + map.grid.slot(x, row), kBlockSize, to + x);
+  }
+  for (int y = 0; y < kRows; ++y) {
+    const float* row = texels.data() + width * static_cast<std::size_t>(y);
+    for (std::size_t x = 0; x + 1 < width; ++x) across[x] = std::max(across[x], std::fabs(row[x + 1] - row[x]));
+    if (y + 1 == kRows) break;
+    for (std::size_t x = 0; x < width; ++x) down[x] = std::max(down[x], std::fabs(row[x + width] - row[x]));
+  }
+  float* out = map.steepness.data() + static_cast<std::size_t>(cell_row) * (width / kShadowCell);
+  for (std::size_t x = 0; x < width; x += kShadowCell) {
+    float dx = 0, dy = 0;
+    for (std::size_t i = x; i < x + kRows - 1; ++i) dx = std::max(dx, across[i]);
+    for (std::size_t i = x; i < x + kRows; ++i) dy = std::max(dy, down[i]);
+    out[x / kShadowCell] = (dx + dy) * 1.0001f + 1e-7f;  // rounding of the differences
+  }
+}
+
 void draw_map(const FrameData& f, ShadowMap& map, const GeometryView& casters, VisibilityBuffer& scratch,
               const FrameKernels& kernels, ThreadPool& pool) {
   const std::vector<ShadowPass> passes = passes_of(map, casters);
@@ -160,6 +187,9 @@ void draw_map(const FrameData& f, ShadowMap& map, const GeometryView& casters, V
   pool.for_each(tiles, [&](std::size_t tile, int) { kernels.draw_shadow_tile(f, passes, bins, scratch, tile); });
   map.depth = std::move(scratch.depth);
   scratch.depth = AlignedArray<float>();
+  const std::size_t cells = static_cast<std::size_t>(map.grid.width_px / kShadowCell);
+  map.steepness.resize(cells * cells);
+  pool.for_each(cells, [&](std::size_t row, int) { measure_steepness(map, static_cast<int>(row)); });
 }
 
 }  // namespace

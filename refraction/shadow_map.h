@@ -36,7 +36,11 @@ struct ShadowMap {
   float texel_m = 1;
   float bias = 0;              // of depths, in their own unit
   AlignedArray<float> depth;   // blocked; greater is nearer to the sun, 0 where nothing is
+  // By cell of kShadowCell texels a side, in rows: how far any depth of a look-up that begins there can be from its
+  // middle tap's. Small on smooth surfaces, where one tap then decides for all.
+  AlignedArray<float> steepness;
 };
+inline constexpr int kShadowCell = 8;
 
 // The levels of one medium's map, fine to coarse.
 struct SunMap {
