@@ -113,11 +113,12 @@ class GlbWriter {
   template <class T>
   std::size_t add_accessor(const std::vector<T>& values, const char* type) {
     const bool is_index = std::is_same_v<T, std::uint32_t>;
-    root_["accessors"].push_back(
-        {{"bufferView", add_view(bytes_of(values), is_index ? kElementArrayBuffer : kArrayBuffer)},
-         {"componentType", is_index ? kUnsignedInt : kFloat},
-         {"count", values.size()},
-         {"type", type}});
+    // First: a new key in root_ moves the others.
+    const std::size_t view = add_view(bytes_of(values), is_index ? kElementArrayBuffer : kArrayBuffer);
+    root_["accessors"].push_back({{"bufferView", view},
+                                  {"componentType", is_index ? kUnsignedInt : kFloat},
+                                  {"count", values.size()},
+                                  {"type", type}});
     return root_["accessors"].size() - 1;
   }
 
@@ -126,7 +127,8 @@ class GlbWriter {
   std::size_t add_owned(const std::vector<T>& values, int component_type, const char* type, std::size_t components) {
     const Bytes bytes = bytes_of(values);
     owned_.emplace_back(bytes.begin(), bytes.end());
-    root_["accessors"].push_back({{"bufferView", add_view(bytes_of(owned_.back()), 0)},
+    const std::size_t view = add_view(bytes_of(owned_.back()), 0);
+    root_["accessors"].push_back({{"bufferView", view},
                                   {"componentType", component_type},
                                   {"count", values.size() / components},
                                   {"type", type}});
@@ -362,25 +364,27 @@ void GlbWriter::add_animations() {
   constexpr const char* kPaths[] = {"translation", "rotation", "scale", "weights"};
   constexpr const char* kInterpolations[] = {"STEP", "LINEAR", "CUBICSPLINE"};
   for (const Animation& animation : scene_.animations) {
-    json out;
-    if (!animation.name.empty()) out["name"] = animation.name;
+    json samplers = json::array(), channels = json::array();
     for (const Channel& channel : animation.channels) {
       require_index(channel.node, scene_.nodes.size(), false, "moving node");
       require(!channel.times_s.empty() && !channel.values.empty(), "has an animation channel without keys");
       const std::size_t input = add_owned(channel.times_s, kFloat, "SCALAR", 1);
-      root_["accessors"].back()["min"] = {exact(channel.times_s.front())};
-      root_["accessors"].back()["max"] = {exact(channel.times_s.back())};
+      root_["accessors"].back()["min"] = json::array({exact(channel.times_s.front())});
+      root_["accessors"].back()["max"] = json::array({exact(channel.times_s.back())});
       const bool rotates = channel.path == ChannelPath::kRotation, of_weights = channel.path == ChannelPath::kWeights;
       const std::size_t components = of_weights ? 1 : rotates ? 4 : 3;
       const char* type = of_weights ? "SCALAR" : rotates ? "VEC4" : "VEC3";
       const std::size_t output = add_owned(channel.values, kFloat, type, components);
-      out["channels"].push_back(
-          {{"sampler", out["samplers"].size()},
-           {"target", {{"node", channel.node}, {"path", kPaths[static_cast<std::size_t>(channel.path)]}}}});
-      out["samplers"].push_back({{"input", input},
-                                 {"output", output},
-                                 {"interpolation", kInterpolations[static_cast<std::size_t>(channel.interpolation)]}});
+      channels.push_back({{"sampler", samplers.size()},
+                          {"target", {{"node", channel.node}, {"path", kPaths[static_cast<std::size_t>(channel.path)]}}}});
+      samplers.push_back({{"input", input},
+                          {"output", output},
+                          {"interpolation", kInterpolations[static_cast<std::size_t>(channel.interpolation)]}});
     }
+    json out;
+    if (!animation.name.empty()) out["name"] = animation.name;
+    out["channels"] = std::move(channels);
+    out["samplers"] = std::move(samplers);
     root_["animations"].push_back(std::move(out));
   }
 }

@@ -175,8 +175,7 @@ class MotionReader {
                     const std::string& label, Animation& animation) {
     Channel channel;
     if (file_channel.target_node < 0 || !parse_path(file_channel.target_path, channel.path)) {
-      warn(document_, "animation channels of no node or of '" + one_line(file_channel.target_path, 40) +
-                          "' are not read");
+      warn(document_, "animation channels of '" + one_line(file_channel.target_path, 40) + "' are not read");
       return;
     }
     const auto file_node = static_cast<std::size_t>(file_channel.target_node);

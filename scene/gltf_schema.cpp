@@ -490,6 +490,12 @@ void Checker::check_animations() const {
       index(*target, "node", inner + ".target", "nodes");
       string(*target, "path", inner + ".target", Need::kRequired);
     }
+    // The specification has them ignored; the library refuses them.
+    const std::size_t all = channels->size();
+    for (std::size_t i = all; i-- > 0;) {
+      if (!(*channels)[i]["target"].contains("node")) channels->erase(i);
+    }
+    if (channels->size() != all) warn(document_, "animation channels of no node are not read");
   });
 }
 
