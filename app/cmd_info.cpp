@@ -58,6 +58,9 @@ Json info_json(const std::string& name, const LoadedScene& loaded) {
   json["materials"] = scene.materials.materials.size();
   json["textures"] = scene.materials.textures.size();
   json["lights"] = scene.lights.size();
+  json["skins"] = scene.skins.size();
+  json["animations"] = Json::array();
+  for (const Animation& animation : scene.animations) json["animations"].push_back(animation.name);
   json["cameras"] = Json::array();
   for (const PlacedCamera& camera : loaded.render.cameras) json["cameras"].push_back(camera_json(camera, loaded.render, scene));
   json["water"] = Json::array();

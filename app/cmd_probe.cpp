@@ -127,6 +127,7 @@ int run_probe(const ProbeArguments& arguments) {
 
   LoadedScene loaded = load_scene(options.scene, options.quiet);
   loaded.scene = Scene{};
+  update_render_scene(loaded.render, options.time_s);
   const Camera& camera = pick_camera(loaded.render, options.camera).camera;
   const Values values = arguments.pixel ? probe_pixel(options, loaded.render, camera, pixel)
                                         : probe_world_point(options, loaded.render, camera, point);

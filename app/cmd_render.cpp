@@ -70,6 +70,7 @@ class Render {
   }
 
   double time_of(std::int64_t k) const { return options_.time_s + static_cast<double>(k) * options_.step_s; }
+  Camera camera_now(std::int64_t k) const { return camera_at(loaded_.render, *camera_, time_of(k)); }
 
   // With the extra buffers that the outputs need, or bare, as a frame is timed.
   std::unique_ptr<Renderer> make_renderer(bool with_outputs) {
@@ -110,7 +111,7 @@ class Render {
       const std::unique_ptr<Renderer> renderer = make_renderer(false);
       Progress progress("frame", options_.warmup + options_.repeat, options_.quiet);
       for (std::int64_t k = -options_.warmup; k < options_.repeat; ++k) {
-        renderer->render(turned_left(camera_->camera, k), time_of(k), frame);
+        renderer->render(turned_left(camera_now(k), k), time_of(k), frame);
         if (k >= 0) count(frame);
         if (k == 0) note_first(frame);
         progress.step_done();
@@ -118,7 +119,7 @@ class Render {
     }
     if (needs_outputs()) {
       const double build_ms = times_.build_ms;
-      make_renderer(true)->render(camera_->camera, time_of(0), frame);
+      make_renderer(true)->render(camera_now(0), time_of(0), frame);
       times_.build_ms = build_ms;
       print_digests(frame);
       write_picture(frame, options_.output);
@@ -137,7 +138,7 @@ class Render {
     Frame frame;
     for (std::int64_t k = range.first; k <= range.last; ++k) {
       commit_picture();
-      renderer->render(camera_->camera, time_of(k), frame);
+      renderer->render(camera_now(k), time_of(k), frame);
       count(frame);
       if (k == range.first) note_first(frame);
       print_digests(frame);

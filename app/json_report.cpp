@@ -156,7 +156,8 @@ Json settings_json(const Options& options, const RenderScene& scene, const Place
   s["tile"] = frame.tile_px;
   s["isa"] = isa_name(frame.isa);
   s["anisotropy"] = frame.anisotropy;
-  s["shadows"] = "off";
+  s["shadows"] = shadows_name(frame.shadows);
+  s["shadow-map"] = frame.shadow_map_px;
   s["reflections"] = "environment";
   s["exposure"] = json_float(frame.exposure_stops);
   s["tonemap"] = tone_map_name(frame.tone_map);

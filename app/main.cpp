@@ -67,7 +67,8 @@ void add_frame_options(CLI::App& command, RawOptions& raw) {
   add("--tile", raw.tile, "N", "pixels, a power of two, 16 to 256; 64");
   add("--isa", raw.isa, "NAME", "instruction set (shoal list isas); the best");
   add("--anisotropy", raw.anisotropy, "N", "of texture filtering; 1");
-  add("--shadows", raw.shadows, "off|map|rays", "off");
+  add("--shadows", raw.shadows, "off|map|rays", "of the sun; map");
+  add("--shadow-map", raw.shadow_map, "N", "texels a side of the sun's shadow map, a power of two, 256 to 8192; 4096");
   add("--reflections", raw.reflections, "environment|scene", "environment");
   add("--exposure", raw.exposure, "STOPS", "of the PNG; 0");
   add("--tonemap", raw.tonemap, "none|aces", "of the PNG; none");

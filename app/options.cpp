@@ -179,6 +179,14 @@ int read_tile(const std::string& text) {
   return static_cast<int>(tile);
 }
 
+int read_shadow_map(const std::string& text) {
+  const std::int64_t size = read_integer("--shadow-map", text, 256, 8192);
+  if ((size & (size - 1)) != 0) {
+    throw UsageError(fmt::format("--shadow-map '{}': not a power of two; expected 256, 512, 1024, 2048, 4096 or 8192", text));
+  }
+  return static_cast<int>(size);
+}
+
 Isa read_isa(const std::string& text) {
   Names runs;
   const std::optional<Isa> asked = parse_isa(text);
@@ -211,7 +219,10 @@ void read_frame_settings(const RawOptions& raw, FrameSettings& frame) {
   if (raw.anisotropy && read_count("--anisotropy", *raw.anisotropy, 1, 16) > 1) {
     not_yet("--anisotropy", *raw.anisotropy, {"1"});
   }
-  if (raw.shadows) read_choice("--shadows", *raw.shadows, {"off"}, {"map", "rays"});
+  if (raw.shadows) {
+    frame.shadows = read_choice("--shadows", *raw.shadows, {"off", "map"}, {"rays"}) == 0 ? Shadows::kOff : Shadows::kMap;
+  }
+  if (raw.shadow_map) frame.shadow_map_px = read_shadow_map(*raw.shadow_map);
   if (raw.reflections) read_choice("--reflections", *raw.reflections, {"environment"}, {"scene"});
   if (raw.exposure) frame.exposure_stops = read_float("--exposure", *raw.exposure, -kMaxExposureStops, kMaxExposureStops);
   if (raw.tonemap) {
@@ -307,6 +318,7 @@ const char* geometry_name(WaterGeometry geometry) {
   return geometry == WaterGeometry::kNormals ? "normals" : "displaced";
 }
 
+const char* shadows_name(Shadows shadows) { return shadows == Shadows::kOff ? "off" : "map"; }
 const char* tone_map_name(ToneMap tone_map) { return tone_map == ToneMap::kNone ? "none" : "aces"; }
 
 }  // namespace shoal::app

@@ -18,7 +18,7 @@ struct RawOptions {
   std::string scene;
   std::optional<std::string> output, json;
   std::optional<std::string> method, methods, reference, size, spp, camera, time, step, frames, warmup, repeat, threads,
-      tile, isa, anisotropy, shadows, reflections, exposure, tonemap, background, aov, triangles;
+      tile, isa, anisotropy, shadows, shadow_map, reflections, exposure, tonemap, background, aov, triangles;
   std::vector<std::string> set;  // KEY=VALUE
   bool digest = false, quiet = false;
 };
@@ -65,6 +65,7 @@ SceneOptions read_scene_options(const RawOptions& raw);
 // The names of a surface kind and of a geometry, as `--set` takes them.
 const char* surface_name(SurfaceKind kind);
 const char* geometry_name(WaterGeometry geometry);
+const char* shadows_name(Shadows shadows);
 const char* tone_map_name(ToneMap tone_map);
 
 struct SurfaceInfo {

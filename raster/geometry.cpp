@@ -80,6 +80,20 @@ void append_vertices(Geometry& g, const MeshView& mesh, const std::uint32_t* glo
 // Corner arrays (padded with the degenerate 0, 0, 0), bounds and longest edge of a drawn chunk.
 void append_chunk(Geometry& g, const MeshView& mesh, const std::uint8_t* local, Chunk chunk) {
   const std::size_t count = chunk.triangle_count, padded = round_up_16(count);
+  for (std::size_t t = 0; t < padded; ++t) {
+    const bool real = t < count;
+    g.corner0.push_back(real ? local[3 * t] : std::uint8_t{0});
+    g.corner1.push_back(real ? local[3 * t + 1] : std::uint8_t{0});
+    g.corner2.push_back(real ? local[3 * t + 2] : std::uint8_t{0});
+  }
+  chunk.material = mesh.material;
+  measure_chunk(g, chunk);
+  g.chunks.push_back(chunk);
+}
+
+}  // namespace
+
+void measure_chunk(const Geometry& g, Chunk& chunk) {
   const VertexRecord* v = g.vertices.data() + chunk.first_vertex;
   Vec3f lo = v[0].position_world, hi = lo;
   for (int i = 1; i < chunk.vertex_count; ++i) {
@@ -88,26 +102,16 @@ void append_chunk(Geometry& g, const MeshView& mesh, const std::uint8_t* local, 
     hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
   }
   float longest2 = 0;
-  for (std::size_t t = 0; t < padded; ++t) {
-    const bool real = t < count;
-    const std::uint8_t a = real ? local[3 * t] : std::uint8_t{0};
-    const std::uint8_t b = real ? local[3 * t + 1] : std::uint8_t{0};
-    const std::uint8_t c = real ? local[3 * t + 2] : std::uint8_t{0};
-    g.corner0.push_back(a);
-    g.corner1.push_back(b);
-    g.corner2.push_back(c);
-    const Vec3f ab = v[b].position_world - v[a].position_world, bc = v[c].position_world - v[b].position_world;
-    const Vec3f ca = v[a].position_world - v[c].position_world;
+  for (std::size_t i = chunk.first_index; i < chunk.first_index + std::size_t{chunk.triangle_count}; ++i) {
+    const Vec3f a = v[g.corner0[i]].position_world, b = v[g.corner1[i]].position_world;
+    const Vec3f c = v[g.corner2[i]].position_world;
+    const Vec3f ab = b - a, bc = c - b, ca = a - c;
     longest2 = std::max({longest2, dot(ab, ab), dot(bc, bc), dot(ca, ca)});
   }
-  chunk.material = mesh.material;
   chunk.bounds_min_world = lo;
   chunk.bounds_max_world = hi;
   chunk.longest_edge_m = std::sqrt(longest2);
-  g.chunks.push_back(chunk);
 }
-
-}  // namespace
 
 void measure_mesh(const MeshView& mesh, GeometrySize& size) {
   ChunkCutter cutter(mesh.vertex_count);

@@ -1,4 +1,5 @@
-// How much a mesh takes once chunked, so that a builder can reserve exactly (raster/geometry.cpp).
+// How much a mesh takes once chunked, so that a builder can reserve exactly; how far a chunk reaches
+// (raster/geometry.cpp).
 #pragma once
 
 #include <cstddef>
@@ -16,5 +17,8 @@ void measure_mesh(const MeshView& mesh, GeometrySize& size);
 
 // Reserves room for `size` more in every array; the colours' too when `with_colors`.
 void reserve_geometry(Geometry& geometry, const GeometrySize& size, bool with_colors);
+
+// Bounds and longest edge of a chunk whose vertices and corners are in place.
+void measure_chunk(const Geometry& geometry, Chunk& chunk);
 
 }  // namespace shoal

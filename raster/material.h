@@ -35,6 +35,16 @@ struct DirectionalLight {
   Vec3f irradiance{1, 1, 1};        // linear, on a surface facing it (lux in glTF's terms)
 };
 
+// A point or spot light: small, and seen from far enough to be a point.
+struct PunctualLight {
+  Vec3f position_world{0, 0, 0};
+  Vec3f direction_world{0, -1, 0};  // unit, a spot's axis
+  Vec3f intensity{1, 1, 1};         // linear; candela in glTF's terms
+  float inverse_range2 = 0;         // 1 / range^2 (1/m^2); 0: no end
+  // Across a spot's cone clamp(cosine * cone_scale + cone_offset, 0, 1)^2; these of a point light give 1.
+  float cone_scale = 0, cone_offset = 1;
+};
+
 // What every ray sees that leaves the scene, and the ambient light that comes from it.
 struct Background {
   enum class Kind : std::uint8_t { kColor, kSky } kind = Kind::kColor;
@@ -47,6 +57,7 @@ struct Background {
 
 struct Lighting {
   std::vector<DirectionalLight> directional;
+  std::vector<PunctualLight> punctual;
   // Hemispherical ambient irradiance over pi: from above (+up) and from below.
   Vec3f ambient_up{0, 0, 0}, ambient_down{0, 0, 0};
   Vec3f up_world{0, 1, 0};

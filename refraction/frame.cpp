@@ -16,6 +16,9 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
   const std::size_t tiles = static_cast<std::size_t>(f.bin_grid.tiles_x) * static_cast<std::size_t>(f.bin_grid.tiles_y);
   const std::size_t regions = static_cast<std::size_t>(f.grid.regions_x) * static_cast<std::size_t>(f.grid.regions_y);
 
+  // 0 Sun: its shadow maps hold the whole scene and are there already (refraction/shadow_map.h); they are drawn by
+  // Renderer, once for a still scene, each frame for an animated one.
+
   // 1 Water: where the planes are, seen from this eye. (Flat surfaces have no heights to compute.)
   place_water(f, method);
   clock.lap("water");

@@ -14,6 +14,7 @@
 #include "raster/visibility.h"
 #include "refraction/broad/broad_phase.h"
 #include "refraction/renderer.h"
+#include "refraction/shadow_map.h"
 #include "scene/scene.h"
 
 namespace shoal {
@@ -80,6 +81,7 @@ struct FrameData {
   BinGrid bin_grid;
   GeometryView geometry;
   GeometryView water_geometry;      // the outlines of the bodies of water
+  SunShadows shadows;               // of the sun, which stands still as the scene does
   std::vector<std::uint32_t> outline_first_chunk;  // of body b; one more at the end
 
   // This frame.

@@ -2,6 +2,7 @@
 #include "refraction/kernels.h"
 
 #include "raster/visibility.h"
+#include "refraction/kernels_shadow.h"
 #include "refraction/pixel_stage.h"
 #include "refraction/water_programs.h"
 
@@ -97,7 +98,7 @@ std::uint8_t water_in_region(const FrameData& f, std::int32_t body, std::size_t 
 
 FrameKernels make_frame_kernels() {
   return {&direct_front_end, &water_front_end, &refracted_front_end, &mirrored_front_end, &draw_tile, &direct_alpha,
-          &mirrored_alpha, &water_in_region};
+          &mirrored_alpha, &water_in_region, &shadow_front_end, &draw_shadow_tile};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -29,6 +29,10 @@ struct FrameKernels {
   // Which pixels of a 64-pixel region show body b: 0 none; bit 0 some, bits 1 to 4 some within 4 px of the left, right,
   // top, bottom side. Their count is added.
   std::uint8_t (*water_in_region)(const FrameData&, std::int32_t body, std::size_t region, std::uint32_t& pixels);
+  // The sun's depth: item `item` of a pass into its bins, and the bins of a map's passes to one tile of depth.
+  void (*shadow_front_end)(const ShadowPass&, PassBins&, std::size_t item);
+  void (*draw_shadow_tile)(const FrameData&, const std::vector<ShadowPass>&, const std::vector<PassBins>&, VisibilityBuffer& out,
+                           std::size_t tile);
 };
 
 // What a method brings: its broad phase and its narrow phase (refraction/methods/method.h).

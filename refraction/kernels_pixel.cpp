@@ -1,6 +1,7 @@
 // Attributes, material and light of what sixteen rays hit: one copy an ISA, for every pass and method.
 #include "raster/light.h"
 #include "refraction/pixel_stage.h"
+#include "refraction/shadow_lookup.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -20,6 +21,20 @@ static Vec3<WideF> light_under_water(const WaterPass& water, const Lighting& lig
   const Vec3<WideF> one = broadcast<WideF>(Vec3f{1, 1, 1});
   return select<WideF>(under, kept, one);
 }
+
+// The sun through a shadow map, if there is one.
+struct MappedSun {
+  const SunMap* map;
+  const PixelAttributes<WideF>& at;
+  WideM active;
+
+  template <class F>
+  SHOAL_INLINE Vec3<F> reach(Vec3<F> irradiance, WideM facing) const {
+    const WideM lanes = facing & active;
+    if (map == nullptr || none(lanes)) return irradiance;
+    return irradiance * sun_visibility(*map, at.position_world, at.normal_world, lanes);
+  }
+};
 
 void shade_hits(const FrameData& f, const Ray<WideF>& ray,
                                                  const RayDifferential<WideF>& differential, WideI id, WideM active,
@@ -51,7 +66,8 @@ void shade_hits(const FrameData& f, const Ray<WideF>& ray,
   });
   const Vec3<WideF> light_scale = water != nullptr ? light_under_water(*water, f.scene->lighting, a.position_world)
                                                    : broadcast<WideF>(Vec3f{1, 1, 1});
-  out.radiance = shade<WideF>(out.surface, unlit, to_eye, f.scene->lighting, light_scale);
+  const SunMap* map = water != nullptr ? f.shadows.of_body(static_cast<std::size_t>(water->index)) : f.shadows.air();
+  out.radiance = shade<WideF>(out.surface, unlit, to_eye, f.scene->lighting, light_scale, MappedSun{map, a, active});
   out.t = a.t;
 }
 

@@ -27,6 +27,8 @@ void check_settings(const FrameSettings& s, const RenderScene& scene) {
   check(s.tile_px >= 16 && s.tile_px <= 256 && (s.tile_px & (s.tile_px - 1)) == 0,
         "tile " + std::to_string(s.tile_px) + " is not allowed; expected a power of two from 16 to 256");
   check(s.anisotropy == 1, "anisotropy " + std::to_string(s.anisotropy) + " has not come yet; expected 1");
+  check(s.shadow_map_px >= 256 && s.shadow_map_px <= 8192 && (s.shadow_map_px & (s.shadow_map_px - 1)) == 0,
+        "shadow map size " + std::to_string(s.shadow_map_px) + " is not allowed; expected a power of two from 256 to 8192");
   check(s.exposure_stops >= -100.0f && s.exposure_stops <= 100.0f, "exposure is out of range; expected -100 to 100 stops");
   const std::vector<Isa> isas = supported_isas();
   check(std::find(isas.begin(), isas.end(), s.isa) != isas.end(), std::string("isa ") + isa_name(s.isa) + " does not run on this machine");
@@ -61,6 +63,7 @@ PassBins make_bins(std::size_t chunk_count) {
 }  // namespace
 
 struct Renderer::Impl {
+  std::unique_ptr<RenderScene> moved;  // the renderer's own, where the scene is animated
   const RenderScene& scene;
   const FrameKernels& kernels;
   const Method& method;
@@ -71,7 +74,8 @@ struct Renderer::Impl {
   StageClock clock;
 
   Impl(const RenderScene& s, const FrameSettings& settings)
-      : scene(s), kernels(frame_kernels(settings.isa)), method(find_method(settings.method, settings.isa)),
+      : moved(s.moves() ? std::make_unique<RenderScene>(s) : nullptr), scene(moved ? *moved : s),
+        kernels(frame_kernels(settings.isa)), method(find_method(settings.method, settings.isa)),
         pool(settings.threads > 0 ? settings.threads : available_threads()) {
     build_outlines();
     FrameData& f = frame;
@@ -83,6 +87,7 @@ struct Renderer::Impl {
     f.water_geometry = view_of(outlines, outline_materials);
     f.bins = make_bins(scene.geometry.chunks.size());
     f.water_bins.items.resize(scene.waters.size());
+    if (!moved) build_shadows(f, kernels, pool);
     allocate();
   }
 
@@ -90,8 +95,10 @@ struct Renderer::Impl {
   void build_outlines() {
     Material surface;
     surface.double_sided = true;
-    outline_materials.materials.push_back(surface);
+    outline_materials.materials.assign(1, surface);
+    outlines = Geometry{};
     std::vector<std::uint32_t>& first_chunk = frame.outline_first_chunk;
+    first_chunk.clear();
     for (const WaterBody& body : scene.waters) {
       first_chunk.push_back(static_cast<std::uint32_t>(outlines.chunks.size()));
       const std::vector<Vec3f> normals(body.outline.size(), body.normal);
@@ -146,14 +153,28 @@ struct Renderer::Impl {
 
   void sample(StageDigests* digests) { render_sample(frame, kernels, method.kernels, pool, clock, digests); }
 
-  void render(const Camera& camera, Frame& out) {
+  // Animated scenes: what moves, where it is at this time.
+  void move(double time_s) {
+    update_render_scene(*moved, time_s, &pool);
+    if (!scene.waters.empty()) {
+      build_outlines();
+      frame.water_geometry = view_of(outlines, outline_materials);
+    }
+    clock.lap("animate");
+    build_shadows(frame, kernels, pool);
+    clock.lap("shadow.map");
+  }
+
+  void render(const Camera& camera, double time_s, Frame& out) {
     const FloatModeGuard mode;
     FrameData& f = frame;
     StageDigests digests;
     StageDigests* wanted = f.settings.digests ? &digests : nullptr;
     clock.reset();
+    if (moved) move(time_s);
     f.water_pixels = f.subdivision_capped = 0;
     f.srgb8.resize(static_cast<std::size_t>(f.settings.width_px) * static_cast<std::size_t>(f.settings.height_px) * 3);
+    if (wanted != nullptr) digests.shadow(f), clock.skip();
     f.sample_count = f.settings.spp;
     f.sample = 0;
     if (f.settings.spp > 1) {
@@ -201,7 +222,7 @@ Renderer::Renderer(const RenderScene& scene, const FrameSettings& settings) {
 }
 Renderer::~Renderer() = default;
 
-void Renderer::render(const Camera& camera, double /*time_s*/, Frame& frame) { impl_->render(camera, frame); }
+void Renderer::render(const Camera& camera, double time_s, Frame& frame) { impl_->render(camera, time_s, frame); }
 int Renderer::threads() const { return impl_->pool.threads(); }
 
 std::string picture_digest(const Frame& frame) { return digest_hex(frame.srgb8.data(), frame.srgb8.size()); }

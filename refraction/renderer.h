@@ -15,6 +15,8 @@
 
 namespace shoal {
 
+// Of the sun, the first directional light.
+enum class Shadows : std::uint8_t { kOff, kMap };
 enum class ToneMap : std::uint8_t { kNone, kAces };
 
 // Every buffer that can be asked for beside the picture. Names and channels: aov_infos().
@@ -41,6 +43,8 @@ struct FrameSettings {
   int tile_px = 64;                                   // a power of two, 16 to 256
   Isa isa = Isa::kScalar;                             // see supported_isas()
   int anisotropy = 1;
+  Shadows shadows = Shadows::kMap;
+  int shadow_map_px = 4096;                           // a power of two, 256 to 8192
   float exposure_stops = 0;
   ToneMap tone_map = ToneMap::kNone;
   std::uint32_t aovs = 0;      // bit 1 << int(Aov)
@@ -68,7 +72,8 @@ struct Frame {
   std::uint64_t subdivision_capped = 0;  // triangles that reached the subdivision's level cap
 };
 
-// Holds what does not depend on camera and time: chunks, buffers, threads. One frame at a time.
+// Holds what does not depend on camera and time: chunks, buffers, threads; of an animated scene a copy of its own, which
+// it moves. One frame at a time.
 class Renderer {
  public:
   // Throws UsageError for settings out of their domain or an unknown method. The scene must outlive the renderer.
@@ -77,7 +82,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  //   time_s  seconds; the water's surface moves with it
+  //   camera  where it is at that time (camera_at)
+  //   time_s  seconds; animations and the water's surface move with it
   void render(const Camera& camera, double time_s, Frame& frame);
 
   int threads() const;

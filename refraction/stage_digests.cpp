@@ -43,6 +43,11 @@ void add_rows(Digest& digest, const FrameGrid& grid, const AlignedArray<T>& buff
 
 }  // namespace
 
+void StageDigests::shadow(const FrameData& f) {
+  for (const SunMap& map : f.shadows.maps)
+    for (const ShadowMap& level : map.levels) add_rows(stage("shadow"), level.grid, level.depth, nullptr);
+}
+
 void StageDigests::direct(const FrameData& f) {
   add_rows(stage("visibility.direct"), f.grid, f.direct.id, nullptr);
   add_rows(stage("depth.direct"), f.grid, f.direct.depth, nullptr);

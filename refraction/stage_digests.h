@@ -16,6 +16,7 @@ class StageDigests {
  public:
   StageDigests();
   ~StageDigests();
+  void shadow(const FrameData& f);      // the sun's maps, where there are any
   void direct(const FrameData& f);
   void refracted(const FrameData& f);   // once a body of water that shows
   void reflected(const FrameData& f);

@@ -6,69 +6,18 @@
 #include "core/error.h"
 #include "core/math.h"
 #include "raster/geometry_measure.h"
+#include "scene/building.h"
+#include "scene/deform.h"
+#include "scene/motion.h"
 #include "scene/scene.h"
 
 namespace shoal {
+using namespace building;
 namespace {
 
 constexpr float kDefaultDepth_m = 1.0f;    // of a body that has nothing below it
 constexpr float kPlanarTolerance = 1e-4f;  // of the outline's extent
 constexpr float kDefaultOrthographicFar_m = 1000.0f;
-
-[[noreturn]] void fail(const Scene& scene, const Node& node, const std::string& what) {
-  throw Error(scene.name + ": node '" + node.name + "': " + what);
-}
-
-bool is_finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-// Unit vector, or zero where there is no direction. Scaled by the largest component first: squares neither overflow nor
-// vanish.
-Vec3f normalize_or_zero(Vec3f v) {
-  const float largest = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-  if (!(largest > 0) || !std::isfinite(largest)) return {0, 0, 0};
-  const Vec3f s = v / largest;
-  return s / std::sqrt(dot(s, s));
-}
-bool is_zero(Vec3f v) { return v.x == 0 && v.y == 0 && v.z == 0; }
-
-Vec3f column(const Mat4& t, int c) { return {t.m[0][c], t.m[1][c], t.m[2][c]}; }
-
-float determinant(const Mat4& t) { return dot(column(t, 0), cross(column(t, 1), column(t, 2))); }
-
-// The inverse transpose up to a positive factor: the matrix of cofactors, times the determinant's sign.
-struct NormalMatrix {
-  Vec3f columns[3];
-
-  explicit NormalMatrix(const Mat4& t) {
-    const Vec3f a = normalize_scale(t, 0), b = normalize_scale(t, 1), c = normalize_scale(t, 2);
-    const float sign = determinant(t) < 0 ? -1.0f : 1.0f;
-    columns[0] = cross(b, c) * sign;
-    columns[1] = cross(c, a) * sign;
-    columns[2] = cross(a, b) * sign;
-  }
-  Vec3f apply(Vec3f n) const {
-    const Vec3f w = normalize_or_zero(columns[0] * n.x + columns[1] * n.y + columns[2] * n.z);
-    return is_zero(w) ? Vec3f{0, 1, 0} : w;
-  }
-
- private:
-  // One common factor for all columns keeps the products of tiny or huge scales in range.
-  static Vec3f normalize_scale(const Mat4& t, int c) {
-    float largest = 0;
-    for (int row = 0; row < 3; ++row) {
-      for (int col = 0; col < 3; ++col) largest = std::max(largest, std::fabs(t.m[row][col]));
-    }
-    return largest > 0 ? column(t, c) / largest : Vec3f{0, 0, 0};
-  }
-};
-
-bool is_outline(const Scene& scene, const Node& node) {
-  return node.water != kNoIndex && !scene.waters[static_cast<std::size_t>(node.water)].has_size;
-}
-
-const Mesh* mesh_of(const Scene& scene, const Node& node) {
-  return node.mesh == kNoIndex ? nullptr : &scene.meshes[static_cast<std::size_t>(node.mesh)];
-}
 
 // --- Geometry -------------------------------------------------------------------------------------------------------
 
@@ -93,15 +42,15 @@ void for_each_primitive(const Scene& scene, Fn&& fn) {
     if (!mesh) continue;
     const bool drawn = !is_outline(scene, scene.nodes[n]);
     for (std::size_t p = 0; p < mesh->primitives.size(); ++p) {
-      fn(scene.nodes[n], mesh->primitives[p], view_of(mesh->primitives[p], n, p, drawn));
+      fn(n, mesh->primitives[p], view_of(mesh->primitives[p], n, p, drawn));
     }
   }
 }
 
-Geometry bake_geometry(const Scene& scene) {
+Geometry bake_geometry(const Scene& scene, const Pose& pose, Motion& motion) {
   GeometrySize size;
   bool with_colors = false;
-  for_each_primitive(scene, [&](const Node&, const MeshPrimitive&, const MeshView& view) {
+  for_each_primitive(scene, [&](std::size_t, const MeshPrimitive&, const MeshView& view) {
     measure_mesh(view, size);
     with_colors |= view.colors != nullptr;
   });
@@ -111,24 +60,31 @@ Geometry bake_geometry(const Scene& scene) {
   reserve_geometry(geometry, size, with_colors);
   std::vector<Vec3f> positions, normals;
   std::vector<std::uint32_t> flipped;
-  for_each_primitive(scene, [&](const Node& node, const MeshPrimitive& p, MeshView view) {
-    const NormalMatrix normal_matrix(node.world_from_local);
+  for_each_primitive(scene, [&](std::size_t n, const MeshPrimitive& p, MeshView view) {
+    const Deformer deformer(scene, pose, n, p);
     positions.resize(p.positions.size());
     normals.resize(p.positions.size());
     for (std::size_t i = 0; i < p.positions.size(); ++i) {
-      positions[i] = transform_point(node.world_from_local, p.positions[i]);
-      normals[i] = normal_matrix.apply(p.normals[i]);
+      positions[i] = deformer.position(i);
+      normals[i] = deformer.normal(i);
       if (!is_finite(positions[i]))
-        fail(scene, node, "a vertex is not finite in world space; expected finite positions");
+        fail(scene, scene.nodes[n], "a vertex is not finite in world space; expected finite positions");
     }
     view.positions_world = positions.data();
     view.normals_world = normals.data();
-    if (determinant(node.world_from_local) < 0) {  // a mirror image turns front faces to back
+    const bool moves = view.drawn && drawable_moves(scene, motion.node_moves, n, p);
+    if (deformer.mirrored() && !moves) {  // a mirror image turns front faces to back
       flipped = p.indices;
       for (std::size_t i = 0; i + 2 < flipped.size(); i += 3) std::swap(flipped[i + 1], flipped[i + 2]);
       view.indices = flipped.data();
     }
-    append_mesh(geometry, view);
+    if (moves) {
+      append_moving(geometry, view, deformer.mirrored(), motion);
+    } else {
+      const std::size_t first = geometry.vertices.size();
+      append_mesh(geometry, view);
+      if (!motion.node_moves.empty()) include(motion, geometry, first);
+    }
   });
   return geometry;
 }
@@ -195,7 +151,9 @@ float depth_to_bottom(const Geometry& geometry, const WaterBody& body) {
   return depth > 0 ? depth : kDefaultDepth_m;
 }
 
-WaterBody place_water(const Scene& scene, std::size_t node_index, const Geometry& geometry) {
+}  // namespace
+
+WaterBody building::place_water(const Scene& scene, std::size_t node_index, const Geometry* geometry) {
   const Node& node = scene.nodes[node_index];
   const WaterSpec& spec = scene.waters[static_cast<std::size_t>(node.water)];
   const Mat4& t = node.world_from_local;
@@ -231,11 +189,13 @@ WaterBody place_water(const Scene& scene, std::size_t node_index, const Geometry
     if (!(body.depth_m > 0) || !std::isfinite(body.depth_m)) {
       fail(scene, node, "water depth is not positive; expected metres below the plane");
     }
-  } else {
-    body.depth_m = depth_to_bottom(geometry, body);
+  } else if (geometry != nullptr) {
+    body.depth_m = depth_to_bottom(*geometry, body);
   }
   return body;
 }
+
+namespace {
 
 // --- Cameras --------------------------------------------------------------------------------------------------------
 
@@ -247,8 +207,9 @@ bool aim(Camera& camera, Vec3f forward, Vec3f up) {
   return !is_zero(camera.forward_world) && !is_zero(camera.right_world);
 }
 
-PlacedCamera place_camera(const Scene& scene, std::size_t node_index) {
-  const Node& node = scene.nodes[node_index];
+}  // namespace
+
+PlacedCamera building::place_camera(const Scene& scene, const Node& node, std::size_t node_index) {
   const CameraSpec& spec = scene.cameras[static_cast<std::size_t>(node.camera)];
   PlacedCamera placed;
   placed.name = node.name;
@@ -267,6 +228,8 @@ PlacedCamera place_camera(const Scene& scene, std::size_t node_index) {
   camera.far_m = spec.zfar > 0 ? spec.zfar : kDefaultOrthographicFar_m;
   return placed;
 }
+
+namespace {
 
 // The whole scene in a three-quarter view, its bounding sphere inside a square frame of 45 degrees.
 PlacedCamera framing_camera(Vec3f lo, Vec3f hi) {
@@ -288,6 +251,7 @@ PlacedCamera framing_camera(Vec3f lo, Vec3f hi) {
 
 constexpr Vec3f kDefaultToSun{0.40824829f, 0.81649658f, 0.40824829f};
 constexpr Vec3f kDefaultSunIrradiance{2.6f, 2.45f, 2.2f};
+constexpr float kMaxInverseRange2 = 1e12f;  // a micrometre: its square stays finite far away
 
 bool is_lit(const Scene& scene) {
   for (const Node& node : scene.nodes) {
@@ -314,44 +278,115 @@ void ambient_from_background(Lighting& lighting) {
   }
 }
 
-Lighting make_lighting(const Scene& scene) {
+// A point or spot light.
+// Source: KHR_lights_punctual, "Inner and Outer Cone Angles" (the falloff's scale and offset).
+PunctualLight place_lamp(const Scene& scene, const Node& node, const LightSpec& spec, Vec3f direction) {
+  PunctualLight light;
+  light.position_world = column(node.world_from_local, 3);
+  if (!is_finite(light.position_world)) fail(scene, node, "the light's place is not finite; expected a finite position");
+  light.direction_world = direction;
+  light.intensity = spec.color * spec.intensity;
+  if (spec.range_m > 0) {
+    const float inverse = 1.0f / spec.range_m;
+    light.inverse_range2 = std::min(inverse * inverse, kMaxInverseRange2);
+  }
+  if (spec.kind == LightKind::kSpot) {
+    const float outer = det_cos(spec.outer_cone);
+    light.cone_scale = 1.0f / std::max(0.001f, det_cos(spec.inner_cone) - outer);
+    light.cone_offset = -outer * light.cone_scale;
+  }
+  return light;
+}
+
+}  // namespace
+
+Lighting building::make_lighting(const Scene& scene) {
   Lighting lighting;
   const bool lit = is_lit(scene);
   for (const Node& node : scene.nodes) {
     if (node.light == kNoIndex) continue;
     const LightSpec& spec = scene.lights[static_cast<std::size_t>(node.light)];
+    if (spec.kind == LightKind::kPoint) {
+      lighting.punctual.push_back(place_lamp(scene, node, spec, {0, -1, 0}));
+      continue;
+    }
     const Vec3f direction = normalize_or_zero(-column(node.world_from_local, 2));
     if (is_zero(direction)) fail(scene, node, "the light's transform is degenerate; expected a direction");
-    lighting.directional.push_back({direction, spec.color * spec.intensity});
+    if (spec.kind == LightKind::kSpot) {
+      lighting.punctual.push_back(place_lamp(scene, node, spec, direction));
+    } else {
+      lighting.directional.push_back({direction, spec.color * spec.intensity});
+    }
   }
-  if (lit && lighting.directional.empty()) lighting.directional.push_back({-kDefaultToSun, kDefaultSunIrradiance});
+  if (lit && lighting.directional.empty() && lighting.punctual.empty()) lighting.directional.push_back({-kDefaultToSun, kDefaultSunIrradiance});
 
   if (scene.has_background) {
     lighting.background = scene.background;
   } else if (lit) {
-    const DirectionalLight& sun = lighting.directional[0];
     lighting.background.kind = Background::Kind::kSky;
-    lighting.background.to_sun_world = -sun.direction_world;
-    lighting.background.sun = sun.irradiance;
+    if (!lighting.directional.empty()) {
+      const DirectionalLight& sun = lighting.directional[0];
+      lighting.background.to_sun_world = -sun.direction_world;
+      lighting.background.sun = sun.irradiance;
+    }
   }
   if (lit) ambient_from_background(lighting);
   return lighting;
 }
 
-}  // namespace
+namespace {
 
-RenderScene build_render_scene(const Scene& scene) {
+// All but what would be large and stands still.
+Scene without_textures(const Scene& scene) {
+  Scene copy;
+  copy.name = scene.name;
+  copy.nodes = scene.nodes;
+  copy.meshes = scene.meshes;
+  copy.cameras = scene.cameras;
+  copy.lights = scene.lights;
+  copy.waters = scene.waters;
+  copy.skins = scene.skins;
+  copy.animations = scene.animations;
+  copy.locals = scene.locals;
+  copy.materials.materials = scene.materials.materials;
+  copy.has_background = scene.has_background;
+  copy.background = scene.background;
+  return copy;
+}
+
+//   scene   its nodes where they are in the pose
+//   motion  `node_moves` is given; receives the moving drawables and the bounds of the rest
+RenderScene build(const Scene& scene, const Pose& pose, Motion& motion) {
   RenderScene out;
-  out.geometry = bake_geometry(scene);
-  out.materials = scene.materials;
+  out.geometry = bake_geometry(scene, pose, motion);
   out.lighting = make_lighting(scene);
   find_bounds(out.geometry, out.bounds_min_world, out.bounds_max_world);
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
     out.node_names.push_back(scene.nodes[n].name);
-    if (scene.nodes[n].water != kNoIndex) out.waters.push_back(place_water(scene, n, out.geometry));
-    if (scene.nodes[n].camera != kNoIndex) out.cameras.push_back(place_camera(scene, n));
+    if (scene.nodes[n].water != kNoIndex) out.waters.push_back(place_water(scene, n, &out.geometry));
+    if (scene.nodes[n].camera != kNoIndex) out.cameras.push_back(place_camera(scene, scene.nodes[n], n));
   }
   if (out.cameras.empty()) out.cameras.push_back(framing_camera(out.bounds_min_world, out.bounds_max_world));
+  return out;
+}
+
+}  // namespace
+
+RenderScene build_render_scene(const Scene& scene) {
+  const Pose pose = pose_scene(scene, 0);
+  Motion motion;
+  motion.node_moves = moving_nodes(scene);
+  RenderScene out;
+  if (motion.node_moves.empty()) {
+    out = build(scene, pose, motion);
+  } else {
+    motion.scene = without_textures(scene);
+    place_nodes(motion.scene, pose);
+    out = build(motion.scene, pose, motion);
+    forget_still_vertices(motion);
+    out.motion = std::move(motion);
+  }
+  out.materials = scene.materials;
   return out;
 }
 

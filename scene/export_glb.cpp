@@ -32,7 +32,7 @@ Bytes bytes_of(const std::vector<T>& values) {
   return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(T)};
 }
 
-constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123, kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 
 class GlbWriter {
  public:
@@ -46,6 +46,8 @@ class GlbWriter {
     add_materials();
     add_cameras();
     add_lights();
+    add_skins();
+    add_animations();
     if (buffer_size_ > 0) root_["buffers"] = json::array({json{{"byteLength", buffer_size_}}});
     text_ = root_.dump(-1, ' ', false, json::error_handler_t::replace);
     text_.resize((text_.size() + 3) / 4 * 4, ' ');
@@ -111,16 +113,35 @@ class GlbWriter {
   template <class T>
   std::size_t add_accessor(const std::vector<T>& values, const char* type) {
     const bool is_index = std::is_same_v<T, std::uint32_t>;
-    root_["accessors"].push_back(
-        {{"bufferView", add_view(bytes_of(values), is_index ? kElementArrayBuffer : kArrayBuffer)},
-         {"componentType", is_index ? kUnsignedInt : kFloat},
-         {"count", values.size()},
-         {"type", type}});
+    // First: a new key in root_ moves the others.
+    const std::size_t view = add_view(bytes_of(values), is_index ? kElementArrayBuffer : kArrayBuffer);
+    root_["accessors"].push_back({{"bufferView", view},
+                                  {"componentType", is_index ? kUnsignedInt : kFloat},
+                                  {"count", values.size()},
+                                  {"type", type}});
+    return root_["accessors"].size() - 1;
+  }
+
+  // Values of the writer's own making.
+  template <class T>
+  std::size_t add_owned(const std::vector<T>& values, int component_type, const char* type, std::size_t components) {
+    const Bytes bytes = bytes_of(values);
+    owned_.emplace_back(bytes.begin(), bytes.end());
+    const std::size_t view = add_view(bytes_of(owned_.back()), 0);
+    root_["accessors"].push_back({{"bufferView", view},
+                                  {"componentType", component_type},
+                                  {"count", values.size() / components},
+                                  {"type", type}});
     return root_["accessors"].size() - 1;
   }
 
   void add_scene();
   json node_json(const Node& node) const;
+  json transform_json(const LocalTransform& local) const;
+  void add_joints(const MeshPrimitive& mesh, json& attributes);
+  json targets_json(const MeshPrimitive& mesh);
+  void add_skins();
+  void add_animations();
   void add_nodes();
   void add_primitive(const MeshPrimitive& mesh, json& primitives);
   void add_meshes();
@@ -141,7 +162,7 @@ class GlbWriter {
   std::string text_;
   std::vector<Bytes> parts_;
   std::uint64_t buffer_size_ = 0;
-  std::vector<std::vector<std::uint8_t>> images_;
+  std::vector<std::vector<std::uint8_t>> images_, owned_;
   std::vector<std::int32_t> image_of_texture_;
 };
 
@@ -185,14 +206,33 @@ json GlbWriter::node_json(const Node& node) const {
   require_index(node.camera, scene_.cameras.size(), true, "camera");
   require_index(node.light, scene_.lights.size(), true, "light");
   require_index(node.water, scene_.waters.size(), true, "body of water");
+  require_index(node.skin, scene_.skins.size(), true, "skin");
   if (node.mesh != kNoIndex) out["mesh"] = node.mesh;
+  if (node.skin != kNoIndex) out["skin"] = node.skin;
+  for (const float weight : node.morph_weights) out["weights"].push_back(exact(weight));
   if (node.camera != kNoIndex) out["camera"] = node.camera;
   if (node.light != kNoIndex) out["extensions"]["KHR_lights_punctual"]["light"] = node.light;
   if (node.water != kNoIndex) out["extras"]["water"] = water_json(scene_.waters[static_cast<std::size_t>(node.water)]);
   return out;
 }
 
+json GlbWriter::transform_json(const LocalTransform& local) const {
+  json out = json::object();
+  if (local.is_matrix) {
+    for (int c = 0; c < 4; ++c) {
+      for (int r = 0; r < 3; ++r) out["matrix"].push_back(local.matrix[r][c]);
+      out["matrix"].push_back(c == 3 ? 1.0 : 0.0);
+    }
+  } else {
+    out["translation"] = local.translation;
+    out["rotation"] = local.rotation;
+    out["scale"] = local.scale;
+  }
+  return out;
+}
+
 void GlbWriter::add_nodes() {
+  require(scene_.locals.empty() || scene_.locals.size() == scene_.nodes.size(), "has local transforms of some nodes only");
   std::vector<gltf::Affine> worlds;    // as the loader will have them
   std::vector<std::size_t> ancestors;  // of the next node
   for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
@@ -203,6 +243,12 @@ void GlbWriter::add_nodes() {
     ancestors.push_back(i);
 
     json out = node_json(node);
+    if (!scene_.locals.empty()) {
+      if (node.parent != kNoIndex) root_["nodes"][static_cast<std::size_t>(node.parent)]["children"].push_back(i);
+      out.update(transform_json(scene_.locals[i]));
+      root_["nodes"].push_back(std::move(out));
+      continue;
+    }
     const gltf::Affine world = gltf::widen(node.world_from_local);
     gltf::Affine local = world;
     if (node.parent != kNoIndex) {
@@ -245,11 +291,102 @@ void GlbWriter::add_primitive(const MeshPrimitive& mesh, json& primitives) {
   attributes["POSITION"] = add_accessor(mesh.positions, "VEC3");
   root_["accessors"].back()["min"] = exact(low);
   root_["accessors"].back()["max"] = exact(high);
-  attributes["NORMAL"] = add_accessor(mesh.normals, "VEC3");
+  if (!mesh.flat_normals) attributes["NORMAL"] = add_accessor(mesh.normals, "VEC3");
   if (!mesh.uvs.empty()) attributes["TEXCOORD_0"] = add_accessor(mesh.uvs, "VEC2");
   if (!mesh.colors.empty()) attributes["COLOR_0"] = add_accessor(mesh.colors, "VEC4");
+  if (mesh.influences != 0 && !scene_.skins.empty()) add_joints(mesh, attributes);
   const std::size_t indices = add_accessor(mesh.indices, "SCALAR");
   primitives.push_back({{"attributes", std::move(attributes)}, {"indices", indices}, {"material", mesh.material}});
+  if (!mesh.targets.empty()) primitives.back()["targets"] = targets_json(mesh);
+}
+
+void GlbWriter::add_joints(const MeshPrimitive& mesh, json& attributes) {
+  const std::size_t count = mesh.positions.size(), influences = mesh.influences;
+  require(influences % 4 == 0 && mesh.joints.size() == count * influences && mesh.weights.size() == count * influences,
+          "has a primitive with unequal numbers of joints and weights");
+  for (std::size_t set = 0; set < influences / 4; ++set) {
+    std::vector<std::uint16_t> joints;
+    std::vector<float> weights;
+    for (std::size_t v = 0; v < count; ++v) {
+      for (std::size_t k = v * influences + 4 * set; k < v * influences + 4 * set + 4; ++k) {
+        joints.push_back(mesh.joints[k]);
+        weights.push_back(mesh.weights[k]);
+      }
+    }
+    attributes["JOINTS_" + std::to_string(set)] = add_owned(joints, kUnsignedShort, "VEC4", 4);
+    attributes["WEIGHTS_" + std::to_string(set)] = add_owned(weights, kFloat, "VEC4", 4);
+  }
+}
+
+json GlbWriter::targets_json(const MeshPrimitive& mesh) {
+  json targets = json::array();
+  const std::size_t count = mesh.positions.size();
+  for (const MorphTarget& target : mesh.targets) {
+    require((target.positions.empty() || target.positions.size() == count) &&
+                (target.normals.empty() || target.normals.size() == count),
+            "has a morph target with unequal numbers of attributes");
+    json out = json::object();
+    if (!target.positions.empty()) {
+      Vec3f low = target.positions[0], high = low;
+      for (const Vec3f p : target.positions) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+      }
+      out["POSITION"] = add_accessor(target.positions, "VEC3");
+      root_["accessors"].back()["min"] = exact(low);
+      root_["accessors"].back()["max"] = exact(high);
+    }
+    if (!target.normals.empty()) out["NORMAL"] = add_accessor(target.normals, "VEC3");
+    targets.push_back(std::move(out));
+  }
+  return targets;
+}
+
+void GlbWriter::add_skins() {
+  for (const Skin& skin : scene_.skins) {
+    require(!skin.joints.empty() && skin.joint_from_mesh.size() == skin.joints.size(), "has a skin without its joints");
+    for (const std::int32_t joint : skin.joints) require_index(joint, scene_.nodes.size(), false, "joint");
+    std::vector<float> matrices;
+    for (const Mat4& m : skin.joint_from_mesh) {
+      for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 4; ++r) matrices.push_back(r < 3 ? m.m[r][c] : c < 3 ? 0.0f : 1.0f);
+      }
+    }
+    json out;
+    if (!skin.name.empty()) out["name"] = skin.name;
+    out["inverseBindMatrices"] = add_owned(matrices, kFloat, "MAT4", 16);
+    out["joints"] = skin.joints;
+    root_["skins"].push_back(std::move(out));
+  }
+}
+
+void GlbWriter::add_animations() {
+  constexpr const char* kPaths[] = {"translation", "rotation", "scale", "weights"};
+  constexpr const char* kInterpolations[] = {"STEP", "LINEAR", "CUBICSPLINE"};
+  for (const Animation& animation : scene_.animations) {
+    json samplers = json::array(), channels = json::array();
+    for (const Channel& channel : animation.channels) {
+      require_index(channel.node, scene_.nodes.size(), false, "moving node");
+      require(!channel.times_s.empty() && !channel.values.empty(), "has an animation channel without keys");
+      const std::size_t input = add_owned(channel.times_s, kFloat, "SCALAR", 1);
+      root_["accessors"].back()["min"] = json::array({exact(channel.times_s.front())});
+      root_["accessors"].back()["max"] = json::array({exact(channel.times_s.back())});
+      const bool rotates = channel.path == ChannelPath::kRotation, of_weights = channel.path == ChannelPath::kWeights;
+      const std::size_t components = of_weights ? 1 : rotates ? 4 : 3;
+      const char* type = of_weights ? "SCALAR" : rotates ? "VEC4" : "VEC3";
+      const std::size_t output = add_owned(channel.values, kFloat, type, components);
+      channels.push_back({{"sampler", samplers.size()},
+                          {"target", {{"node", channel.node}, {"path", kPaths[static_cast<std::size_t>(channel.path)]}}}});
+      samplers.push_back({{"input", input},
+                          {"output", output},
+                          {"interpolation", kInterpolations[static_cast<std::size_t>(channel.interpolation)]}});
+    }
+    json out;
+    if (!animation.name.empty()) out["name"] = animation.name;
+    out["channels"] = std::move(channels);
+    out["samplers"] = std::move(samplers);
+    root_["animations"].push_back(std::move(out));
+  }
 }
 
 void GlbWriter::add_meshes() {
@@ -362,9 +499,16 @@ void GlbWriter::add_cameras() {
 }
 
 void GlbWriter::add_lights() {
+  constexpr const char* kTypes[] = {"directional", "point", "spot"};
   for (const LightSpec& light : scene_.lights) {
-    root_["extensions"]["KHR_lights_punctual"]["lights"].push_back(
-        {{"type", "directional"}, {"color", exact(light.color)}, {"intensity", exact(light.intensity)}});
+    json out{{"type", kTypes[static_cast<std::size_t>(light.kind)]},
+             {"color", exact(light.color)},
+             {"intensity", exact(light.intensity)}};
+    if (light.range_m > 0) out["range"] = exact(light.range_m);
+    if (light.kind == LightKind::kSpot) {
+      out["spot"] = {{"innerConeAngle", exact(light.inner_cone)}, {"outerConeAngle", exact(light.outer_cone)}};
+    }
+    root_["extensions"]["KHR_lights_punctual"]["lights"].push_back(std::move(out));
     use_extension("KHR_lights_punctual");
   }
 }

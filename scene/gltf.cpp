@@ -64,6 +64,7 @@ Scene load_gltf(const std::string& path, const LoadLimits& limits) {
     const std::vector<gltf::UvSource> uv_sources = gltf::read_materials(document, scene);
     gltf::read_meshes(document, scene, uv_sources);
     gltf::read_nodes(document, scene);
+    gltf::read_motion(document, scene);
     scene.warnings = std::move(document.warnings);
     return scene;
   } catch (const Error&) {

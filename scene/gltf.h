@@ -31,8 +31,9 @@ struct LoadLimits {
 //   limits  see LoadLimits
 //
 // Returns the file's default scene, or its first one where it names none: nodes depth first from the scene's roots, in
-// the file's order; all of the file's meshes, cameras and directional lights, in the file's order; the textures that
-// base colours use. World matrices are products in double, rounded to float once. Missing normals are generated flat
+// the file's order; instances of a mesh (EXT_mesh_gpu_instancing) as nodes below theirs; all of the file's meshes,
+// cameras, lights and animations, in the file's order; the skins that nodes of the scene use; the textures that base
+// colours use. World matrices are products in double, rounded to float once. Missing normals are generated flat
 // (Source: glTF 2.0 specification, 3.7.2.1), which un-indexes that primitive. An unnamed node with a camera takes the
 // camera's name. KHR_texture_transform is baked into the texture coordinates. What the file holds and Shoal does not
 // draw yet is named in Scene::warnings, one line a kind, without the path. Scene::name is the path.

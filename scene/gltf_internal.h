@@ -37,6 +37,11 @@ struct Document {
   std::vector<EncodedImage> images;
   std::vector<std::string> warnings;
   std::uint64_t scene_bytes = 0;  // decoded so far
+
+  // Where read_nodes put each node of the file: into Scene::nodes, or kNoIndex where no scene that is drawn has it; and
+  // how many instances of its mesh follow it as nodes of their own (EXT_mesh_gpu_instancing).
+  std::vector<std::int32_t> node_places;
+  std::vector<std::uint32_t> instance_counts;
 };
 
 // Throws Error: "PATH: what; expected".
@@ -74,6 +79,18 @@ struct UvSource {
   bool transformed = false;
   float m[2][3] = {{1, 0, 0}, {0, 1, 0}};
 };
+
+// gltf_deform.cpp. Joints, weights and morph targets of a primitive whose positions are read.
+void read_deformation(Document& document, const tinygltf::Primitive& primitive, std::uint64_t vertex_count,
+                      const std::string& label, MeshPrimitive& mesh);
+// One vertex a corner, as the positions get where normals are generated.
+void expand_deformation(Document& document, MeshPrimitive& mesh, const std::string& label);
+
+// gltf_motion.cpp. Skins, morph weights and animations, once meshes and nodes are read.
+void read_motion(Document& document, Scene& scene);
+
+// gltf_instances.cpp. Transforms of a node's instances; empty where it has none.
+std::vector<LocalTransform> read_instances(Document& document, const tinygltf::Node& node, const std::string& label);
 
 // gltf_materials.cpp, gltf_meshes.cpp, gltf_nodes.cpp, gltf_water.cpp
 std::vector<UvSource> read_materials(Document& document, Scene& scene);

@@ -127,6 +127,7 @@ void generate_flat_normals(Document& document, MeshPrimitive& mesh, const std::s
   mesh.positions = expanded(mesh.positions, mesh.indices);
   mesh.uvs = expanded(mesh.uvs, mesh.indices);
   mesh.colors = expanded(mesh.colors, mesh.indices);
+  expand_deformation(document, mesh, label);
   mesh.normals.resize(mesh.positions.size());
   for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
     const std::size_t first = i / 3 * 3;
@@ -194,7 +195,6 @@ void read_colors(Document& document, const Attribute& attribute, const std::stri
 }
 
 void warn_unread(Document& document, const tinygltf::Primitive& primitive, int uv_set) {
-  if (!primitive.targets.empty()) warn(document, "morph targets are not read yet: the base mesh is drawn");
   const std::string read_uv = "TEXCOORD_" + std::to_string(uv_set);
   for (const auto& [name, accessor] : primitive.attributes) {
     (void)accessor;
@@ -239,6 +239,7 @@ MeshPrimitive read_primitive(Document& document, const tinygltf::Primitive& prim
   if (normal.present) read_normals(document, normal, label, mesh);
   if (uv.present) read_uvs(document, uv, uv_source, label, mesh);
   if (color.present) read_colors(document, color, label, mesh);
+  read_deformation(document, primitive, count, label, mesh);
   if (!normal.present) generate_flat_normals(document, mesh, label);
   warn_unread(document, primitive, uv_source.set);
   return mesh;

@@ -1,4 +1,5 @@
 // Cameras, lights, and the node tree, depth first.
+#include <algorithm>
 #include <cmath>
 
 #include "scene/gltf_internal.h"
@@ -42,84 +43,71 @@ CameraSpec read_camera(const Document& document, const tinygltf::Camera& from, c
   return camera;
 }
 
-// Directional lights only; the result says where in the scene each light of the file is.
-std::vector<std::int32_t> read_lights(Document& document, Scene& scene) {
-  std::vector<std::int32_t> places;
-  for (std::size_t i = 0; i < document.model.lights.size(); ++i) {
-    const tinygltf::Light& from = document.model.lights[i];
-    const std::string label = label_of("lights", i, from.name);
-    if (from.type != "directional") {
-      if (from.type != "point" && from.type != "spot") {
-        fail(document.path, label + " has type '" + one_line(from.type, 40) + "'",
-             "expected directional, point or spot");
-      }
-      warn(document, from.type + " lights are not read yet");
-      places.push_back(kNoIndex);
-      continue;
+// Source: KHR_lights_punctual. tinygltf's range is 0 where the file gives none.
+LightSpec read_light(Document& document, const tinygltf::Light& from, const std::string& label) {
+  LightSpec light;
+  const auto check = [&](double value, const char* what) {
+    if (!(value >= 0 && value < kHuge)) {
+      fail(document.path, label + " has a " + what + " of " + std::to_string(value), "expected 0 or more");
     }
-    LightSpec light;
-    const auto check = [&](double value, const char* what) {
-      if (!(value >= 0 && value < kHuge)) {
-        fail(document.path, label + " has a " + what + " of " + std::to_string(value), "expected 0 or more");
-      }
-      return static_cast<float>(value);
-    };
-    light.intensity = check(from.intensity, "intensity");
-    if (from.color.size() == 3) {
-      light.color.x = check(from.color[0], "color");
-      light.color.y = check(from.color[1], "color");
-      light.color.z = check(from.color[2], "color");
-    }
-    places.push_back(static_cast<std::int32_t>(scene.lights.size()));
-    scene.lights.push_back(light);
+    return static_cast<float>(value);
+  };
+  light.intensity = check(from.intensity, "intensity");
+  if (from.color.size() == 3) {
+    light.color.x = check(from.color[0], "color");
+    light.color.y = check(from.color[1], "color");
+    light.color.z = check(from.color[2], "color");
   }
-  return places;
+  if (from.type == "directional") return light;
+  if (from.type != "point" && from.type != "spot") {
+    fail(document.path, label + " has type '" + one_line(from.type, 40) + "'", "expected directional, point or spot");
+  }
+  light.kind = from.type == "point" ? LightKind::kPoint : LightKind::kSpot;
+  light.range_m = check(from.range, "range");
+  if (light.kind == LightKind::kPoint) return light;
+  constexpr double kQuarterTurn = 1.5707965;  // as a float, so that an exported one is in
+  double inner = from.spot.innerConeAngle;
+  const double outer = from.spot.outerConeAngle;
+  if (!(inner >= 0 && outer > 0 && outer <= kQuarterTurn)) {
+    fail(document.path, label + " has cone angles of " + std::to_string(inner) + " and " + std::to_string(outer),
+         "expected 0 <= inner < outer <= pi / 2 radians");
+  }
+  if (inner > outer) {
+    warn(document, label + " has an inner cone wider than its outer one: the outer one is used");
+    inner = outer;
+  }
+  light.inner_cone = static_cast<float>(inner);
+  light.outer_cone = static_cast<float>(outer);
+  return light;
 }
 
 // Column-major in the file.
-Affine matrix_transform(const Document& document, const std::vector<double>& m, const std::string& label) {
+LocalTransform matrix_transform(const Document& document, const std::vector<double>& m, const std::string& label) {
   if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
     fail(document.path, label + ".matrix has a projective part", "expected 0 0 0 1 as its last row");
   }
-  Affine out{};
+  LocalTransform local;
+  local.is_matrix = true;
   for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 4; ++c) out.m[r][c] = m[static_cast<std::size_t>(4 * c + r)];
+    for (int c = 0; c < 4; ++c) local.matrix[r][c] = m[static_cast<std::size_t>(4 * c + r)];
   }
-  return out;
+  return local;
 }
 
-// Source: specification, 3.5.3: T * R * S, rotation as a quaternion x y z w, normalised here.
-Affine trs_transform(const Document& document, const tinygltf::Node& node, const std::string& label) {
-  Affine out = kAffineIdentity;
-  if (node.rotation.size() == 4) {
-    double x = node.rotation[0], y = node.rotation[1], z = node.rotation[2], w = node.rotation[3];
-    const double square = ((x * x + y * y) + z * z) + w * w;
-    if (!(square > 1e-12 && square < 1e12)) {
-      fail(document.path, label + ".rotation has length " + std::to_string(std::sqrt(square)),
-           "expected a unit quaternion");
-    }
-    const double length = std::sqrt(square);
-    x /= length;
-    y /= length;
-    z /= length;
-    w /= length;
-    const double rotation[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-                                   {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
-                                   {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) out.m[r][c] = rotation[r][c];
-    }
-  }
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (auto& row : out.m) row[c] *= node.scale.size() == 3 ? node.scale[c] : 1.0;
-    out.m[c][3] = node.translation.size() == 3 ? node.translation[c] : 0.0;
-  }
-  return out;
-}
-
-Affine local_transform(Document& document, const tinygltf::Node& node, const std::string& label) {
+LocalTransform local_transform(const Document& document, const tinygltf::Node& node, const std::string& label) {
   if (node.matrix.size() == 16) return matrix_transform(document, node.matrix, label);
-  return trs_transform(document, node, label);
+  LocalTransform local;
+  if (node.translation.size() == 3) std::copy_n(node.translation.begin(), 3, local.translation);
+  if (node.scale.size() == 3) std::copy_n(node.scale.begin(), 3, local.scale);
+  if (node.rotation.size() != 4) return local;
+  std::copy_n(node.rotation.begin(), 4, local.rotation);
+  const double x = node.rotation[0], y = node.rotation[1], z = node.rotation[2], w = node.rotation[3];
+  const double square = ((x * x + y * y) + z * z) + w * w;
+  if (!(square > 1e-12 && square < 1e12)) {
+    fail(document.path, label + ".rotation has length " + std::to_string(std::sqrt(square)),
+         "expected a unit quaternion");
+  }
+  return local;
 }
 
 struct Bounds {
@@ -141,8 +129,7 @@ Bounds bounds_of(const Mesh& mesh) {
 
 class TreeReader {
  public:
-  TreeReader(Document& document, Scene& scene, std::vector<std::int32_t> light_places)
-      : document_(document), scene_(scene), light_places_(std::move(light_places)) {
+  TreeReader(Document& document, Scene& scene) : document_(document), scene_(scene) {
     for (const Mesh& mesh : scene.meshes) {
       bounds_.push_back(bounds_of(mesh));
       std::uint64_t triangles = 0;
@@ -178,30 +165,66 @@ class TreeReader {
   void add(std::size_t index, std::int32_t parent) {
     const tinygltf::Node& from = document_.model.nodes[index];
     const std::string label = label_of("nodes", index, from.name);
+    document_.node_places[index] = static_cast<std::int32_t>(scene_.nodes.size());
     Node node;
     node.name = from.name;
-    node.parent = parent;
-    const Affine local = local_transform(document_, from, label);
-    const Affine world = parent == kNoIndex ? local : product(worlds_[static_cast<std::size_t>(parent)], local);
-    node.world_from_local = narrow(world);
-    check_finite(node.world_from_local, label);
-    worlds_.push_back(world);
-    node.mesh = from.mesh >= 0 ? from.mesh : kNoIndex;
     node.camera = from.camera >= 0 ? from.camera : kNoIndex;
     if (node.camera != kNoIndex && node.name.empty()) {
       node.name = document_.model.cameras[static_cast<std::size_t>(from.camera)].name;
     }
-    if (node.mesh != kNoIndex) count_mesh(static_cast<std::size_t>(node.mesh), world, label);
     read_extensions(from, node, label);
     WaterSpec water;
     if (read_water(document_, from.extras, label, water)) {
-      if (!water.has_size && node.mesh == kNoIndex) {
+      if (!water.has_size && from.mesh < 0) {
         fail(document_.path, label + " is water without a size and without a mesh",
              "expected extras.water.size, or a planar mesh as its outline");
       }
       node.water = static_cast<std::int32_t>(scene_.waters.size());
       scene_.waters.push_back(water);
     }
+    const std::vector<LocalTransform> instances = instances_of(from, node, label);
+    node.mesh = from.mesh >= 0 && instances.empty() ? from.mesh : kNoIndex;
+    place(std::move(node), parent, local_transform(document_, from, label), label);
+    add_instances(index, instances, label);
+  }
+
+  // What stands in a node's place where the mesh is there many times.
+  std::vector<LocalTransform> instances_of(const tinygltf::Node& from, const Node& node, const std::string& label) {
+    std::vector<LocalTransform> instances = read_instances(document_, from, label);
+    if (instances.empty()) return instances;
+    if (from.skin >= 0) {
+      warn(document_, "instances of a skinned mesh are not read: it is drawn once");
+      instances.clear();
+    } else if (node.water != kNoIndex && !scene_.waters.back().has_size) {
+      fail(document_.path, label + " is water whose outline is instanced", "expected extras.water.size, or one mesh");
+    }
+    return instances;
+  }
+
+  void add_instances(std::size_t index, const std::vector<LocalTransform>& instances, const std::string& label) {
+    document_.instance_counts[index] = static_cast<std::uint32_t>(instances.size());
+    if (instances.size() + scene_.nodes.size() > document_.limits.max_nodes) {
+      fail(document_.path, "has more than " + std::to_string(document_.limits.max_nodes) + " nodes and instances",
+           "expected fewer");
+    }
+    const tinygltf::Node& from = document_.model.nodes[index];
+    for (const LocalTransform& local : instances) {
+      Node node;
+      node.name = from.name;
+      node.mesh = from.mesh;
+      place(std::move(node), document_.node_places[index], local, label);
+    }
+  }
+
+  void place(Node node, std::int32_t parent, const LocalTransform& local_parts, const std::string& label) {
+    node.parent = parent;
+    const Affine local = local_affine(local_parts);
+    const Affine world = parent == kNoIndex ? local : product(worlds_[static_cast<std::size_t>(parent)], local);
+    node.world_from_local = narrow(world);
+    check_finite(node.world_from_local, label);
+    worlds_.push_back(world);
+    if (node.mesh != kNoIndex) count_mesh(static_cast<std::size_t>(node.mesh), world, label);
+    scene_.locals.push_back(local_parts);
     scene_.nodes.push_back(std::move(node));
   }
 
@@ -233,22 +256,22 @@ class TreeReader {
 
   void read_extensions(const tinygltf::Node& from, Node& node, const std::string& label) {
     for (const auto& [name, value] : from.extensions) {
+      if (name == "EXT_mesh_gpu_instancing") continue;
       if (name != "KHR_lights_punctual") {
         warn(document_, "extension " + one_line(name, 60) + " is not read yet");
         continue;
       }
       // The index was checked in the file's JSON; the parsed copy is checked again, it costs nothing.
       const int light = value.IsObject() && value.Has("light") ? value.Get("light").GetNumberAsInt() : -1;
-      if (light < 0 || static_cast<std::size_t>(light) >= light_places_.size()) {
+      if (light < 0 || static_cast<std::size_t>(light) >= scene_.lights.size()) {
         fail(document_.path, label + " names light " + std::to_string(light), "expected one of the file's lights");
       }
-      node.light = light_places_[static_cast<std::size_t>(light)];
+      node.light = light;
     }
   }
 
   Document& document_;
   Scene& scene_;
-  std::vector<std::int32_t> light_places_;
   std::vector<Bounds> bounds_;
   std::vector<std::uint64_t> triangles_;
   std::vector<Affine> worlds_;
@@ -262,7 +285,12 @@ void read_nodes(Document& document, Scene& scene) {
   for (std::size_t i = 0; i < model.cameras.size(); ++i) {
     scene.cameras.push_back(read_camera(document, model.cameras[i], label_of("cameras", i, model.cameras[i].name)));
   }
-  TreeReader reader(document, scene, read_lights(document, scene));
+  for (std::size_t i = 0; i < model.lights.size(); ++i) {
+    scene.lights.push_back(read_light(document, model.lights[i], label_of("lights", i, model.lights[i].name)));
+  }
+  document.node_places.assign(model.nodes.size(), kNoIndex);
+  document.instance_counts.assign(model.nodes.size(), 0);
+  TreeReader reader(document, scene);
   read_background(document, model.asset.extras, "asset", scene);
   if (model.scenes.empty()) fail(document.path, "has no scene", "expected at least one");
   const auto first = static_cast<std::size_t>(model.defaultScene >= 0 ? model.defaultScene : 0);

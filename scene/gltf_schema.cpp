@@ -14,7 +14,7 @@ constexpr std::uint64_t kMaxIndex = 0x7FFFFFFF;
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 40;
 
 // Read at all, and enough of each to draw what it asks for.
-constexpr const char* kSupportedExtensions[] = {"KHR_lights_punctual", "KHR_materials_emissive_strength",
+constexpr const char* kSupportedExtensions[] = {"EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_emissive_strength",
                                                 "KHR_materials_unlit", "KHR_mesh_quantization",
                                                 "KHR_texture_transform"};
 
@@ -148,7 +148,8 @@ class Checker {
   void check_cameras_and_lights() const;
   void check_nodes() const;
   void check_trees() const;
-  void check_rest() const;
+  void check_skins() const;
+  void check_animations() const;
 
   Document& document_;
   json& root_;
@@ -363,6 +364,10 @@ void Checker::check_cameras_and_lights() const {
     numbers((*lights)[i], "color", where, 3);
     number((*lights)[i], "intensity", where);
     number((*lights)[i], "range", where);
+    if (json* spot = object((*lights)[i], "spot", where)) {
+      number(*spot, "innerConeAngle", where + ".spot");
+      number(*spot, "outerConeAngle", where + ".spot");
+    }
   }
 }
 
@@ -390,6 +395,13 @@ void Checker::check_nodes() const {
       for (json& child : *children) index_value(&child, where + ".children", "nodes", count("nodes"));
     }
     json* extensions = object(node, "extensions", where);
+    json* instancing = extensions == nullptr ? nullptr : object(*extensions, "EXT_mesh_gpu_instancing", where);
+    if (instancing != nullptr) {
+      json* attributes = object(*instancing, "attributes", where + ".EXT_mesh_gpu_instancing", Need::kRequired);
+      for (auto& [name, value] : attributes->items()) {
+        index_value(&value, where + ".EXT_mesh_gpu_instancing." + one_line(name, 40), "accessors", count("accessors"));
+      }
+    }
     json* light = extensions == nullptr ? nullptr : object(*extensions, "KHR_lights_punctual", where);
     if (light != nullptr) {
       index_value(member(*light, "light", where, Need::kRequired), where + ".light", "lights", light_count);
@@ -445,16 +457,46 @@ void Checker::check_trees() const {
   });
 }
 
-void Checker::check_rest() const {
-  if (count("animations") > 0) {
-    warn(document_, "animations are not read yet: everything stands as the nodes place it");
-    root_.erase("animations");
-  }
-  if (count("skins") > 0) {
-    warn(document_, "skins are not read yet: skinned meshes are drawn as their node places them");
-    root_.erase("skins");
-    each("nodes", [&](json& node, const std::string&) { node.erase("skin"); });
-  }
+void Checker::check_skins() const {
+  each("skins", [&](json& skin, const std::string& where) {
+    index(skin, "inverseBindMatrices", where, "accessors");
+    index(skin, "skeleton", where, "nodes");
+    json* joints = array(skin, "joints", where, Need::kRequired);
+    if (joints->empty() || joints->size() > 0xFFFFu) {
+      wrong(where + " has " + std::to_string(joints->size()) + " joints", "expected 1 to 65535");
+    }
+    for (json& joint : *joints) index_value(&joint, where + ".joints", "nodes", count("nodes"));
+  });
+}
+
+void Checker::check_animations() const {
+  each("animations", [&](json& animation, const std::string& where) {
+    json* samplers = array(animation, "samplers", where, Need::kRequired);
+    for (std::size_t i = 0; i < samplers->size(); ++i) {
+      json& sampler = (*samplers)[i];
+      const std::string inner = where + "." + label_of("samplers", i);
+      if (!sampler.is_object()) wrong(inner + " is " + text_of(sampler), "expected an object");
+      index(sampler, "input", inner, "accessors", Need::kRequired);
+      index(sampler, "output", inner, "accessors", Need::kRequired);
+      string(sampler, "interpolation", inner);
+    }
+    json* channels = array(animation, "channels", where, Need::kRequired);
+    for (std::size_t i = 0; i < channels->size(); ++i) {
+      json& channel = (*channels)[i];
+      const std::string inner = where + "." + label_of("channels", i);
+      if (!channel.is_object()) wrong(inner + " is " + text_of(channel), "expected an object");
+      index_value(member(channel, "sampler", inner, Need::kRequired), inner + ".sampler", "samplers", samplers->size());
+      json* target = object(channel, "target", inner, Need::kRequired);
+      index(*target, "node", inner + ".target", "nodes");
+      string(*target, "path", inner + ".target", Need::kRequired);
+    }
+    // The specification has them ignored; the library refuses them.
+    const std::size_t all = channels->size();
+    for (std::size_t i = all; i-- > 0;) {
+      if (!(*channels)[i]["target"].contains("node")) channels->erase(i);
+    }
+    if (channels->size() != all) warn(document_, "animation channels of no node are not read");
+  });
 }
 
 void Checker::run() {
@@ -467,7 +509,8 @@ void Checker::run() {
   check_cameras_and_lights();
   check_nodes();
   check_trees();
-  check_rest();
+  check_skins();
+  check_animations();
 }
 
 }  // namespace

@@ -96,9 +96,9 @@ equals "settings, frames, digests" "1.25 0.5 0.25 2 32 3 3 61,43" "$(perl -MJSON
   my $s = $j->{settings}; print join " ", $s->{ior}, $s->{exposure}, $s->{step}, $s->{threads}, $j->{tile},
   $j->{frame_ms}{n}, scalar @{$j->{frame_digests}}, join(",", @{$j->{size}})' <r.json)"
 equals "settings' keys" \
-  "method size spp camera time step frames warmup repeat threads tile isa anisotropy shadows reflections exposure tonemap background aov triangles water_size depth ior absorption surface geometry" \
+  "method size spp camera time step frames warmup repeat threads tile isa anisotropy shadows shadow-map reflections exposure tonemap background aov triangles water_size depth ior absorption surface geometry" \
   "$(perl -MJSON::PP -e 'local $/; my $s = decode_json(<STDIN>)->{settings}; my @k = qw(method size spp camera time step frames
-  warmup repeat threads tile isa anisotropy shadows reflections exposure tonemap background aov triangles water_size depth ior absorption
+  warmup repeat threads tile isa anisotropy shadows shadow-map reflections exposure tonemap background aov triangles water_size depth ior absorption
   surface geometry); print join " ", grep { exists $s->{$_} } @k' <r.json)"
 passes "the picture of a repeated run is frame 0's" "$shoal" render box -o one.png $small --json one.json \
   --set ior=1.25 --exposure 0.5 --step 0.25

@@ -21,7 +21,7 @@ for command in render diff probe scene info list; do
 done
 "$shoal" render --help >.help
 for option in -o --method --methods --reference --size --spp --camera --time --step --frames --warmup --repeat --threads \
-              --tile --isa --anisotropy --set --shadows --reflections --exposure --tonemap --background --aov --digest \
+              --tile --isa --anisotropy --set --shadows --shadow-map --reflections --exposure --tonemap --background --aov --digest \
               --json --quiet --triangles; do
   equals "render --help has $option" "yes" "$(grep -qE -- "^ *$option( |,|$)" .help && echo yes)"
 done
@@ -58,9 +58,10 @@ r "--isa 'mmx': unknown; expected one of: .*scalar" --isa mmx
 refused_isa=$(for isa in scalar sse4.2 avx2 avx512 neon; do "$shoal" list isas | grep -qx "$isa" || echo "$isa"; done | head -1)
 [ -z "$refused_isa" ] || r "--isa '$refused_isa': this machine cannot run it" --isa "$refused_isa"
 r "--anisotropy '4': has not come yet" --anisotropy 4
-r "--shadows 'map': has not come yet" --shadows map
 r "--shadows 'rays': has not come yet" --shadows rays
-r "--shadows 'on': unknown; expected one of: off" --shadows on
+r "--shadows 'on': unknown; expected one of: off, map" --shadows on
+r "--shadow-map '1000': not a power of two; expected 256, 512, 1024, 2048, 4096 or 8192" --shadow-map 1000
+r "--shadow-map '16384'" --shadow-map 16384
 r "--reflections 'scene': has not come yet" --reflections scene
 r "--reflections 'none': unknown" --reflections none
 r "--tonemap 'filmic': unknown; expected one of: none, aces" --tonemap filmic

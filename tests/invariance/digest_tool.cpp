@@ -81,6 +81,7 @@ void parse_option(std::string_view option, std::string_view value, Arguments& ar
 
 Arguments parse_arguments(int count, char** texts) {
   Arguments arguments;
+  arguments.settings.shadow_map_px = 512;  // enough to show a difference, and quick where nothing is
   arguments.settings.width_px = 240;
   arguments.settings.height_px = 135;
   arguments.settings.isa = shoal::supported_isas().front();

@@ -117,6 +117,10 @@ void check_same(const Scene& a, const Scene& b) {
   for (std::size_t i = 0; i < a.lights.size(); ++i) {
     CHECK(same_bits(a.lights[i].color, b.lights[i].color));
     CHECK(same_bits(a.lights[i].intensity, b.lights[i].intensity));
+    CHECK(a.lights[i].kind == b.lights[i].kind);
+    CHECK(same_bits(a.lights[i].range_m, b.lights[i].range_m));
+    CHECK(same_bits(a.lights[i].inner_cone, b.lights[i].inner_cone));
+    CHECK(same_bits(a.lights[i].outer_cone, b.lights[i].outer_cone));
   }
   REQUIRE(a.waters.size() == b.waters.size());
   for (std::size_t i = 0; i < a.waters.size(); ++i) check_same(a.waters[i], b.waters[i]);
@@ -187,7 +191,9 @@ Scene full_scene() {
   scene.cameras[1].ymag = 2.3f;
   scene.cameras[1].znear = 0;
   scene.cameras[1].zfar = 55;
-  scene.lights = {{{1, 0.9f, 0.1f}, 3.14159f}};
+  scene.lights = {{{1, 0.9f, 0.1f}, 3.14159f},
+                  {{0.3f, 1, 1}, 800.1f, LightKind::kPoint, 7.7f},
+                  {{1, 1, 1}, 54.3f, LightKind::kSpot, 0, 0.1f, 1.57079637f}};
   scene.waters.resize(2);
   scene.waters[0].has_size = true;
   scene.waters[0].size_x = 3.3f;

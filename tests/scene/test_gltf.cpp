@@ -219,12 +219,13 @@ TEST_CASE("gltf: cameras and lights", "[gltf]") {
   CHECK((scene.cameras[1].xmag == 2 && scene.cameras[1].ymag == 3 && scene.cameras[1].zfar == 10));
   CHECK(scene.nodes[0].name == "lens");
   CHECK(scene.nodes[1].name == "top");
-  REQUIRE(scene.lights.size() == 1);
-  CHECK(scene.nodes[2].light == kNoIndex);
-  CHECK(scene.nodes[3].light == 0);
-  CHECK(scene.lights[0].intensity == 3);
-  CHECK(equal(scene.lights[0].color, {1, 0.5f, 0.25f}));
-  CHECK(has_warning(scene, "point lights"));
+  REQUIRE(scene.lights.size() == 2);
+  CHECK(scene.nodes[2].light == 0);
+  CHECK(scene.nodes[3].light == 1);
+  CHECK(scene.lights[0].kind == LightKind::kPoint);
+  CHECK(scene.lights[1].kind == LightKind::kDirectional);
+  CHECK(scene.lights[1].intensity == 3);
+  CHECK(equal(scene.lights[1].color, {1, 0.5f, 0.25f}));
 }
 
 TEST_CASE("gltf: materials, samplers and what is only warned of", "[gltf]") {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/vec.h"
+#include "scene/animation.h"
 
 namespace shoal::gltf {
 
@@ -46,6 +47,40 @@ inline bool inverse(const Affine& a, Affine& out) {
     out.m[r][3] = -((out.m[r][0] * m[0][3] + out.m[r][1] * m[1][3]) + out.m[r][2] * m[2][3]);
   }
   return true;
+}
+
+// T * R * S. Source: glTF 2.0 specification, 3.5.3.
+//   rotation  a quaternion x y z w, normalised here; one without length turns nothing
+inline Affine from_trs(const double (&translation)[3], const double (&rotation)[4], const double (&scale)[3]) {
+  double x = rotation[0], y = rotation[1], z = rotation[2], w = rotation[3];
+  const double length = std::sqrt(((x * x + y * y) + z * z) + w * w);
+  if (length > 1e-6 && std::isfinite(length)) {
+    x /= length;
+    y /= length;
+    z /= length;
+    w /= length;
+  } else {
+    x = y = z = 0;
+    w = 1;
+  }
+  const double turned[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+                               {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+                               {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
+  Affine out{};
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) out.m[r][c] = turned[r][c] * scale[c];
+    out.m[r][3] = translation[r];
+  }
+  return out;
+}
+
+inline Affine local_affine(const LocalTransform& local) {
+  if (!local.is_matrix) return from_trs(local.translation, local.rotation, local.scale);
+  Affine out{};
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 4; ++c) out.m[r][c] = local.matrix[r][c];
+  }
+  return out;
 }
 
 inline Affine widen(const Mat4& t) {
