@@ -5,6 +5,7 @@
 
 #include "scene/animate.h"
 #include "scene/building.h"
+#include "scene/tangents.h"
 
 namespace shoal::building {
 
@@ -55,6 +56,12 @@ class Deformer {
     if (mesh_.flat_normals) return flat_normal(v / 3 * 3);
     const Vec3f n = morphed_normal(v);
     return joints_.empty() ? normal_matrix_.apply(n) : NormalMatrix(blended(v)).apply(n);
+  }
+
+  bool has_tangents() const { return !mesh_.tangents.empty(); }
+  // Of a mesh with tangents. Targets do not bend them.
+  Vec4f tangent(std::size_t v) const {
+    return place_tangent(joints_.empty() ? world_ : blended(v), mesh_.tangents[v]);
   }
 
  private:

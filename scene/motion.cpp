@@ -56,11 +56,13 @@ void update_chunk(const MovingDrawable& d, const Deformer& deformer, Chunk& chun
       const std::uint32_t source = d.source[i - d.first_vertex];
       vertex.position_world = deformer.position(source);
       vertex.normal_world = deformer.normal(source);
+      if (deformer.has_tangents()) g.tangents[i] = deformer.tangent(source);
       if (!is_finite(vertex.position_world)) {
         fail(scene, scene.nodes[d.node], "a vertex is not finite in world space; expected finite positions");
       }
     } else {
       vertex = g.vertices[i - 1];
+      if (deformer.has_tangents()) g.tangents[i] = g.tangents[i - 1];
     }
     g.x_world[i] = vertex.position_world.x;
     g.y_world[i] = vertex.position_world.y;
