@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "scene/export_glb_file.h"
-#include "scene/gltf_transform.h"
+#include "scene/transform.h"
 #include "scene/images.h"
 
 namespace shoal {
@@ -232,7 +232,7 @@ json GlbWriter::transform_json(const LocalTransform& local) const {
 
 void GlbWriter::add_nodes() {
   require(scene_.locals.empty() || scene_.locals.size() == scene_.nodes.size(), "has local transforms of some nodes only");
-  std::vector<gltf::Affine> worlds;    // as the loader will have them
+  std::vector<Affine> worlds;    // as the loader will have them
   std::vector<std::size_t> ancestors;  // of the next node
   for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
     const Node& node = scene_.nodes[i];
@@ -248,16 +248,16 @@ void GlbWriter::add_nodes() {
       root_["nodes"].push_back(std::move(out));
       continue;
     }
-    const gltf::Affine world = gltf::widen(node.world_from_local);
-    gltf::Affine local = world;
+    const Affine world = widen(node.world_from_local);
+    Affine local = world;
     if (node.parent != kNoIndex) {
-      const gltf::Affine& parent = worlds[static_cast<std::size_t>(node.parent)];
-      gltf::Affine parent_inverse{};
-      if (!gltf::inverse(parent, parent_inverse)) {
+      const Affine& parent = worlds[static_cast<std::size_t>(node.parent)];
+      Affine parent_inverse{};
+      if (!inverse(parent, parent_inverse)) {
         wrong("has node '" + node.name + "' under a parent without volume", "expected parents that can be inverted");
       }
-      local = gltf::product(parent_inverse, world);
-      worlds.push_back(gltf::product(parent, local));
+      local = product(parent_inverse, world);
+      worlds.push_back(product(parent, local));
       root_["nodes"][static_cast<std::size_t>(node.parent)]["children"].push_back(i);
     } else {
       worlds.push_back(world);
@@ -267,7 +267,7 @@ void GlbWriter::add_nodes() {
       for (int r = 0; r < 3; ++r) matrix.push_back(local.m[r][c]);
       matrix.push_back(c == 3 ? 1.0 : 0.0);
     }
-    if (std::memcmp(&local, &gltf::kAffineIdentity, sizeof local) != 0) out["matrix"] = std::move(matrix);
+    if (std::memcmp(&local, &kAffineIdentity, sizeof local) != 0) out["matrix"] = std::move(matrix);
     root_["nodes"].push_back(out.is_null() ? json::object() : std::move(out));
   }
 }

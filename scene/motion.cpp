@@ -164,7 +164,7 @@ void include(Motion& motion, const Geometry& g, std::size_t first) {
 
 void place_nodes(Scene& scene, const Pose& pose) {
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
-    scene.nodes[n].world_from_local = gltf::narrow(pose.world_from_local[n]);
+    scene.nodes[n].world_from_local = narrow(pose.world_from_local[n]);
   }
 }
 
@@ -208,7 +208,7 @@ Camera camera_at(const RenderScene& scene, const PlacedCamera& placed, double ti
   const bool of_node = scene.moves() && m.scene.nodes[placed.node].camera != kNoIndex;
   if (!of_node || !place_moves(m.node_moves, placed.node)) return placed.camera;
   Node node = m.scene.nodes[placed.node];
-  node.world_from_local = gltf::narrow(pose_scene(m.scene, time_s).world_from_local[placed.node]);
+  node.world_from_local = narrow(pose_scene(m.scene, time_s).world_from_local[placed.node]);
   return place_camera(m.scene, node, placed.node).camera;
 }
 
