@@ -32,6 +32,8 @@ struct GeometryView {
   const Geometry::TriangleRecord* triangles;
   const Material* materials;
   const Texture* textures;
+  const Vec2f* uvs1 = nullptr;      // null: none
+  const Vec4f* tangents = nullptr;  // null: none
 };
 
 }  // namespace shoal

@@ -62,6 +62,8 @@ class ChunkCutter {
   std::uint32_t epoch_ = 0;
 };
 
+constexpr Vec4f kNoTangent{1, 0, 0, 1};  // of vertices that no normal map is read at
+
 void append_vertex(Geometry& g, const MeshView& mesh, std::uint32_t v, bool with_colors) {
   const Vec3f p = mesh.positions_world[v];
   g.x_world.push_back(p.x);
@@ -69,6 +71,9 @@ void append_vertex(Geometry& g, const MeshView& mesh, std::uint32_t v, bool with
   g.z_world.push_back(p.z);
   g.vertices.push_back({p, mesh.normals_world[v], mesh.uvs ? mesh.uvs[v] : Vec2f{0, 0}});
   if (with_colors) g.colors.push_back(mesh.colors ? mesh.colors[v] : Vec4f{1, 1, 1, 1});
+  if (!g.uvs1.empty() || mesh.uvs1) g.uvs1.push_back(mesh.uvs1 ? mesh.uvs1[v] : Vec2f{0, 0});
+  if (!g.tangents.empty() || mesh.tangents_world)
+    g.tangents.push_back(mesh.tangents_world ? mesh.tangents_world[v] : kNoTangent);
 }
 
 // The chunk's vertices, padded to sixteen with the last.
@@ -155,6 +160,8 @@ void append_mesh(Geometry& g, const MeshView& mesh) {
   // The first mesh with colours whitens the vertices before it.
   if (mesh.colors && g.colors.empty()) g.colors.resize(g.vertices.size(), Vec4f{1, 1, 1, 1});
   const bool with_colors = mesh.colors || !g.colors.empty();
+  if (mesh.uvs1 && g.uvs1.empty()) g.uvs1.resize(g.vertices.size(), Vec2f{0, 0});
+  if (mesh.tangents_world && g.tangents.empty()) g.tangents.resize(g.vertices.size(), kNoTangent);
 
   ChunkCutter cutter(mesh.vertex_count);
   std::uint8_t local[kChunkTriangles * 3];

@@ -29,7 +29,7 @@ struct Reflectance {
 template <class F>
 SHOAL_INLINE Reflectance<F> make_reflectance(const SurfaceSample<F>& s, Vec3<F> view_direction) {
   const Vec3<F> dielectric = s.base_color * (F(1.0f) - s.metallic);
-  const F f0_dielectric = F(0.04f) * (F(1.0f) - s.metallic);
+  const F f0_dielectric = s.f0_dielectric * (F(1.0f) - s.metallic);
   const Vec3<F> f0 = s.base_color * s.metallic + Vec3<F>{f0_dielectric, f0_dielectric, f0_dielectric};
   const F roughness = max(s.roughness, F(kMinRoughness));
   const F alpha = roughness * roughness;
@@ -151,7 +151,7 @@ SHOAL_INLINE Vec3<F> shade(const SurfaceSample<F>& s, MaskOf<F> unlit, Vec3<F> v
                            Vec3<F> light_scale, const Sun& sun = {}) {
   if (all(unlit)) return s.base_color;
   const Reflectance<F> r = make_reflectance<F>(s, view_direction);
-  Vec3<F> reflected = reflect_ambient<F>(s, r, lighting);
+  Vec3<F> reflected = reflect_ambient<F>(s, r, lighting) * s.occlusion;
   for (const DirectionalLight& light : lighting.directional) {
     const Vec3<F> to_light = -broadcast<F>(light.direction_world);
     const F n_dot_l = dot(r.normal, to_light);

@@ -6,6 +6,7 @@
 
 #include "core/vec.h"
 #include "raster/texture.h"
+#include "raster/uv_map.h"
 
 namespace shoal {
 
@@ -13,16 +14,37 @@ enum class AlphaMode : std::uint8_t { kOpaque, kMask, kBlend };
 
 inline constexpr std::int32_t kNoTexture = -1;
 
+// A texture that modulates one property of a material.
+struct MaterialMap {
+  std::int32_t texture = kNoTexture;  // index into Materials::textures
+  Sampler sampler;
+  UvMap uv;
+};
+
 struct Material {
   Vec4f base_color{1, 1, 1, 1};  // linear
   std::int32_t base_color_texture = kNoTexture;  // index into Materials::textures
   Sampler base_color_sampler;
+  UvMap base_color_uv;
   float metallic = 1, roughness = 1;
   Vec3f emissive{0, 0, 0};
   AlphaMode alpha_mode = AlphaMode::kOpaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
   bool unlit = false;
+
+  MaterialMap metallic_roughness;  // linear: G times roughness, B times metallic
+  MaterialMap normal;              // linear: a tangent-space normal from -1 to 1, x and y times normal_scale
+  MaterialMap occlusion;           // linear: R, of ambient light only
+  MaterialMap emission;            // sRGB: times emissive
+  float normal_scale = 1, occlusion_strength = 1;
+  float ior = 1.5f;  // of a dielectric: 1.5 reflects 0.04 at normal incidence (KHR_materials_ior); 0: all of it
+
+  // Needs more than make_surface reads (raster/surface_maps.h).
+  bool has_maps() const {
+    return metallic_roughness.texture != kNoTexture || normal.texture != kNoTexture ||
+           occlusion.texture != kNoTexture || emission.texture != kNoTexture || ior != 1.5f;
+  }
 };
 
 struct Materials {

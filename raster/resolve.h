@@ -25,6 +25,10 @@ struct PixelAttributes {
   Vec2<F> uv, duv_dx, duv_dy;
   Vec4<F> color;          // COLOR_0, 1 where there is none
   IntOf<F> material;
+  // Only where the geometry has them (GeometryView):
+  Vec2<F> uv1, duv1_dx, duv1_dy;
+  Vec3<F> tangent_world;  // of any length; turned with the normal
+  F handedness;           // the bitangent is cross(normal, tangent) times this
 };
 
 // Calls body(lane, lanes) for each distinct value among the active lanes, in the order of their first lane.
@@ -91,6 +95,42 @@ SHOAL_INLINE void clamp_to_triangle(WideF& u, WideF& v) {
   v = clamp(v, WideF(0.0f), WideF(1.0f) - u);
 }
 
+// The second set of coordinates, interpolated as the first.
+__attribute__((noinline)) inline void resolve_uv1(const GeometryView& g, WideI id, WideM active, WideF u, WideF v,
+                                                  const TriangleHitDerivatives<WideF>& d, PixelAttributes<WideF>& out) {
+  Vec2<WideF> uv0 = broadcast<WideF>(Vec2f{0, 0}), duv1 = uv0, duv2 = uv0;
+  for_each_distinct(id, active, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
+    const Geometry::TriangleRecord& t = g.triangles[one];
+    const Vec2f &a = g.uvs1[t.vertex[0]], &b = g.uvs1[t.vertex[1]], &c = g.uvs1[t.vertex[2]];
+    uv0 = select<WideF>(lanes, broadcast<WideF>(a), uv0);
+    duv1 = select<WideF>(lanes, broadcast<WideF>(b - a), duv1);
+    duv2 = select<WideF>(lanes, broadcast<WideF>(c - a), duv2);
+  });
+  out.uv1 = uv0 + duv1 * u + duv2 * v;
+  out.duv1_dx = duv1 * d.u_dx + duv2 * d.v_dx;
+  out.duv1_dy = duv1 * d.u_dy + duv2 * d.v_dy;
+}
+
+// Tangents, interpolated as normals; a triangle's corners have one handedness (the first one's is taken).
+__attribute__((noinline)) inline void resolve_tangent(const GeometryView& g, WideI id, WideM active, WideF u, WideF v,
+                                                      WideM behind, PixelAttributes<WideF>& out) {
+  const WideF w = (WideF(1.0f) - u) - v;
+  Vec3<WideF> t0 = broadcast<WideF>(Vec3f{1, 0, 0}), t1 = t0, t2 = t0;
+  WideF sign(1.0f);
+  const auto put = [](WideM lanes, const Vec4f& t, Vec3<WideF>& to) SHOAL_LAMBDA {
+    to = select<WideF>(lanes, broadcast<WideF>(Vec3f{t.x, t.y, t.z}), to);
+  };
+  for_each_distinct(id, active, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
+    const Geometry::TriangleRecord& t = g.triangles[one];
+    put(lanes, g.tangents[t.vertex[0]], t0), put(lanes, g.tangents[t.vertex[1]], t1), put(lanes, g.tangents[t.vertex[2]], t2);
+    sign = select(lanes, WideF(g.tangents[t.vertex[0]].w), sign);
+  });
+  const Vec3<WideF> tangent = t0 * w + t1 * u + t2 * v;
+  out.tangent_world = select<WideF>(behind, -tangent, tangent);
+  // The whole frame turns: cross(-n, -t) would leave the bitangent where it was.
+  out.handedness = select(behind, -sign, sign);
+}
+
 //   ray           one a lane, world; its differential: by pixel
 //   id            triangle ids; active: which of them are
 // Error  position: as intersect_triangle (raster/ray_triangle.h), then within the triangle.
@@ -121,6 +161,18 @@ __attribute__((noinline)) inline void resolve_attributes(const GeometryView& g, 
   const WideF one(1.0f);
   out.color = g.colors != nullptr ? interpolate_color(t, u, v) : Vec4<WideF>{one, one, one, one};
   out.material = t.material;
+  if (g.uvs1 != nullptr) resolve_uv1(g, id, active, u, v, d, out);
+  if (g.tangents != nullptr) resolve_tangent(g, id, active, u, v, behind, out);
+}
+
+// The coordinates that one of a material's textures is read with.
+SHOAL_INLINE UvPoint<WideF> map_point(const GeometryView& g, const PixelAttributes<WideF>& a, const UvMap& map) {
+  UvPoint<WideF> p{a.uv, a.duv_dx, a.duv_dy};
+  if (map.set == 1) {
+    const Vec2<WideF> zero = broadcast<WideF>(Vec2f{0, 0});
+    p = g.uvs1 != nullptr ? UvPoint<WideF>{a.uv1, a.duv1_dx, a.duv1_dy} : UvPoint<WideF>{zero, zero, zero};
+  }
+  return map.transformed ? transform_uv<WideF>(map, p) : p;
 }
 
 // Alpha test of the visibility pass: the covered pixels of a masked triangle that its material keeps.
@@ -129,7 +181,8 @@ __attribute__((noinline)) inline WideM alpha_cut(const GeometryView& g, const Ma
   PixelAttributes<WideF> a;
   resolve_attributes(g, ray, differential, WideI(id), cover, a);
   const Material& material = g.materials[g.triangles[id].material];
-  const WideF alpha = surface_alpha<WideF>(material, materials, a.uv, a.duv_dx, a.duv_dy, a.color.w, cover);
+  const UvPoint<WideF> at = map_point(g, a, material.base_color_uv);
+  const WideF alpha = surface_alpha<WideF>(material, materials, at.uv, at.duv_dx, at.duv_dy, a.color.w, cover);
   return cover & (alpha >= WideF(material.alpha_cutoff));
 }
 

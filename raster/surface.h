@@ -16,6 +16,8 @@ struct SurfaceSample {
   F alpha;
   F metallic, roughness;  // 0 to 1
   Vec3<F> emissive;
+  F f0_dielectric = F(0.04f);  // reflectance at normal incidence of what is no metal
+  F occlusion = F(1.0f);       // share of ambient light that arrives
 };
 
 // The same, stored: sixteen pixels of a 4 x 4 block, row by row, a cache line a channel, without padding.
@@ -26,6 +28,7 @@ struct alignas(64) GBufferBlock {
   float alpha[16];
   float metallic[16], roughness[16];
   float emissive[3][16];
+  float f0_dielectric[16], occlusion[16];
 };
 
 }  // namespace shoal
@@ -35,12 +38,12 @@ namespace shoal::inline SHOAL_ISA_NS {
 // Surface points of one material.
 //   position          world, m
 //   normal            world, interpolated: any length but 0 (which stays 0)
-//   uv, duv_dx, duv_dy  texture coordinates and their change over one pixel
+//   uv, duv_dx, duv_dy  the base colour's texture coordinates and their change over one pixel
 //   vertex_color      linear RGBA; 1 where the mesh has none
 //   view_direction    world, from the point towards the eye, any length
 //   active            lanes that are wanted; the others hold no surface
 // Source: glTF 2.0, 3.9 (materials): factors, texture and COLOR_0 multiply. Differs: a double-sided material's normal
-// is turned by the shading normal's side, not by the triangle's.
+// is turned by the shading normal's side, not by the triangle's. The other textures: raster/surface_maps.h.
 template <class F>
 SHOAL_INLINE SurfaceSample<F> make_surface(const Material& material, const Materials& materials, Vec3<F> position,
                                            Vec3<F> normal, Vec2<F> uv, Vec2<F> duv_dx, Vec2<F> duv_dy,
@@ -98,6 +101,8 @@ SHOAL_INLINE void store_surface(GBufferBlock& block, const SurfaceSample<WideF>&
   store_masked(block.metallic, s.metallic, lanes);
   store_masked(block.roughness, s.roughness, lanes);
   surface_detail::put(block.emissive, s.emissive, lanes);
+  store_masked(block.f0_dielectric, s.f0_dielectric, lanes);
+  store_masked(block.occlusion, s.occlusion, lanes);
 }
 
 SHOAL_INLINE SurfaceSample<WideF> load_surface(const GBufferBlock& block) {
@@ -109,6 +114,8 @@ SHOAL_INLINE SurfaceSample<WideF> load_surface(const GBufferBlock& block) {
   s.metallic = WideF::load(block.metallic);
   s.roughness = WideF::load(block.roughness);
   s.emissive = surface_detail::get(block.emissive);
+  s.f0_dielectric = WideF::load(block.f0_dielectric);
+  s.occlusion = WideF::load(block.occlusion);
   return s;
 }
 

@@ -1,5 +1,6 @@
 // Attributes, material and light of what sixteen rays hit: one copy an ISA, for every pass and method.
 #include "raster/light.h"
+#include "raster/surface_maps.h"
 #include "refraction/pixel_stage.h"
 #include "refraction/shadow_lookup.h"
 
@@ -48,8 +49,10 @@ void shade_hits(const FrameData& f, const Ray<WideF>& ray,
   WideM unlit = mask_from_bits(0);
   for_each_distinct(a.material, active, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
     const Material& material = f.geometry.materials[one];
-    const SurfaceSample<WideF> s = make_surface<WideF>(material, all_materials, a.position_world, a.normal_world, a.uv,
-                                                       a.duv_dx, a.duv_dy, a.color, to_eye, lanes);
+    const UvPoint<WideF> at = map_point(f.geometry, a, material.base_color_uv);
+    SurfaceSample<WideF> s = make_surface<WideF>(material, all_materials, a.position_world, a.normal_world, at.uv,
+                                                 at.duv_dx, at.duv_dy, a.color, to_eye, lanes);
+    if (material.has_maps()) apply_maps(f.geometry, material, all_materials, a, to_eye, lanes, s);
     if (material.unlit) unlit = unlit | lanes;
     if (first) {
       out.surface = s;
@@ -63,6 +66,8 @@ void shade_hits(const FrameData& f, const Ray<WideF>& ray,
     to.metallic = select(lanes, s.metallic, to.metallic);
     to.roughness = select(lanes, s.roughness, to.roughness);
     to.emissive = select<WideF>(lanes, s.emissive, to.emissive);
+    to.f0_dielectric = select(lanes, s.f0_dielectric, to.f0_dielectric);
+    to.occlusion = select(lanes, s.occlusion, to.occlusion);
   });
   const Vec3<WideF> light_scale = water != nullptr ? light_under_water(*water, f.scene->lighting, a.position_world)
                                                    : broadcast<WideF>(Vec3f{1, 1, 1});

@@ -47,7 +47,9 @@ GeometryView view_of(const Geometry& g, const Materials& materials) {
           g.colors.empty() ? nullptr : g.colors.data(),
           g.triangles.data(),
           materials.materials.data(),
-          materials.textures.data()};
+          materials.textures.data(),
+          g.uvs1.empty() ? nullptr : g.uvs1.data(),
+          g.tangents.empty() ? nullptr : g.tangents.data()};
 }
 
 // Items of about equal work, enough of them for any number of threads; results do not depend on their size.

@@ -144,16 +144,16 @@ Pose pose_scene(const Scene& scene, double time_s) {
   pose.world_from_local.reserve(scene.nodes.size());
   for (const Node& node : scene.nodes) pose.morph_weights.push_back(node.morph_weights);
   if (scene.locals.size() != scene.nodes.size()) {
-    for (const Node& node : scene.nodes) pose.world_from_local.push_back(gltf::widen(node.world_from_local));
+    for (const Node& node : scene.nodes) pose.world_from_local.push_back(widen(node.world_from_local));
     return pose;
   }
   std::vector<LocalTransform> locals = scene.locals;
   for (const Channel* channel : playing_channels(scene).channels) apply(*channel, time_s, locals, pose);
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
-    const gltf::Affine local = gltf::local_affine(locals[n]);
+    const Affine local = local_affine(locals[n]);
     const std::int32_t parent = scene.nodes[n].parent;
     pose.world_from_local.push_back(
-        parent == kNoIndex ? local : gltf::product(pose.world_from_local[static_cast<std::size_t>(parent)], local));
+        parent == kNoIndex ? local : product(pose.world_from_local[static_cast<std::size_t>(parent)], local));
   }
   return pose;
 }

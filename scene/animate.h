@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scene/gltf_transform.h"
+#include "scene/transform.h"
 #include "scene/scene.h"
 
 namespace shoal {
@@ -18,7 +18,7 @@ struct PlayingChannels {
 PlayingChannels playing_channels(const Scene& scene);
 
 struct Pose {
-  std::vector<gltf::Affine> world_from_local;     // one a node, in double
+  std::vector<Affine> world_from_local;     // one a node, in double
   std::vector<std::vector<float>> morph_weights;  // one a node, empty where it has none
 };
 

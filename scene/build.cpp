@@ -25,6 +25,7 @@ MeshView view_of(const MeshPrimitive& p, std::size_t node, std::size_t primitive
   MeshView view;
   view.uvs = p.uvs.empty() ? nullptr : p.uvs.data();
   view.colors = p.colors.empty() ? nullptr : p.colors.data();
+  view.uvs1 = p.uvs1.empty() ? nullptr : p.uvs1.data();
   view.indices = p.indices.data();
   view.vertex_count = static_cast<std::uint32_t>(p.positions.size());
   view.index_count = static_cast<std::uint32_t>(p.indices.size());
@@ -59,6 +60,7 @@ Geometry bake_geometry(const Scene& scene, const Pose& pose, Motion& motion) {
   Geometry geometry;
   reserve_geometry(geometry, size, with_colors);
   std::vector<Vec3f> positions, normals;
+  std::vector<Vec4f> tangents;
   std::vector<std::uint32_t> flipped;
   for_each_primitive(scene, [&](std::size_t n, const MeshPrimitive& p, MeshView view) {
     const Deformer deformer(scene, pose, n, p);
@@ -72,6 +74,11 @@ Geometry bake_geometry(const Scene& scene, const Pose& pose, Motion& motion) {
     }
     view.positions_world = positions.data();
     view.normals_world = normals.data();
+    if (!p.tangents.empty()) {
+      tangents.resize(p.tangents.size());
+      for (std::size_t i = 0; i < tangents.size(); ++i) tangents[i] = deformer.tangent(i);
+      view.tangents_world = tangents.data();
+    }
     const bool moves = view.drawn && drawable_moves(scene, motion.node_moves, n, p);
     if (deformer.mirrored() && !moves) {  // a mirror image turns front faces to back
       flipped = p.indices;

@@ -5,6 +5,7 @@
 
 #include "scene/animate.h"
 #include "scene/building.h"
+#include "scene/tangents.h"
 
 namespace shoal::building {
 
@@ -13,8 +14,8 @@ inline std::vector<Mat4> joint_matrices(const Skin& skin, const Pose& pose) {
   std::vector<Mat4> joints;
   joints.reserve(skin.joints.size());
   for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-    const gltf::Affine& world = pose.world_from_local[static_cast<std::size_t>(skin.joints[j])];
-    joints.push_back(gltf::narrow(gltf::product(world, gltf::widen(skin.joint_from_mesh[j]))));
+    const Affine& world = pose.world_from_local[static_cast<std::size_t>(skin.joints[j])];
+    joints.push_back(narrow(product(world, widen(skin.joint_from_mesh[j]))));
   }
   return joints;
 }
@@ -32,7 +33,7 @@ class Deformer {
  public:
   //   pose  of the scene's nodes; it and the mesh must outlive the deformer
   Deformer(const Scene& scene, const Pose& pose, std::size_t node_index, const MeshPrimitive& mesh)
-      : mesh_(mesh), weights_(pose.morph_weights[node_index]), world_(gltf::narrow(pose.world_from_local[node_index])),
+      : mesh_(mesh), weights_(pose.morph_weights[node_index]), world_(narrow(pose.world_from_local[node_index])),
         normal_matrix_(world_) {
     const Node& node = scene.nodes[node_index];
     if (is_skinned(node, mesh)) joints_ = joint_matrices(scene.skins[static_cast<std::size_t>(node.skin)], pose);
@@ -55,6 +56,12 @@ class Deformer {
     if (mesh_.flat_normals) return flat_normal(v / 3 * 3);
     const Vec3f n = morphed_normal(v);
     return joints_.empty() ? normal_matrix_.apply(n) : NormalMatrix(blended(v)).apply(n);
+  }
+
+  bool has_tangents() const { return !mesh_.tangents.empty(); }
+  // Of a mesh with tangents. Targets do not bend them.
+  Vec4f tangent(std::size_t v) const {
+    return place_tangent(joints_.empty() ? world_ : blended(v), mesh_.tangents[v]);
   }
 
  private:

@@ -1,9 +1,5 @@
 #include "scene/export_glb.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <bit>
 #include <cerrno>
@@ -12,7 +8,8 @@
 #include <span>
 
 #include "core/error.h"
-#include "scene/gltf_transform.h"
+#include "scene/export_glb_file.h"
+#include "scene/transform.h"
 #include "scene/images.h"
 
 namespace shoal {
@@ -147,6 +144,8 @@ class GlbWriter {
   void add_meshes();
   void add_images();
   std::size_t texture_number(std::int32_t image, const Sampler& sampler);
+  json map_json(std::int32_t texture, const Sampler& sampler, const UvMap& uv);
+  void add_maps(const Material& material, json& out);
   json material_json(const Material& material);
   void add_materials();
   void add_cameras();
@@ -233,7 +232,7 @@ json GlbWriter::transform_json(const LocalTransform& local) const {
 
 void GlbWriter::add_nodes() {
   require(scene_.locals.empty() || scene_.locals.size() == scene_.nodes.size(), "has local transforms of some nodes only");
-  std::vector<gltf::Affine> worlds;    // as the loader will have them
+  std::vector<Affine> worlds;    // as the loader will have them
   std::vector<std::size_t> ancestors;  // of the next node
   for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
     const Node& node = scene_.nodes[i];
@@ -249,16 +248,16 @@ void GlbWriter::add_nodes() {
       root_["nodes"].push_back(std::move(out));
       continue;
     }
-    const gltf::Affine world = gltf::widen(node.world_from_local);
-    gltf::Affine local = world;
+    const Affine world = widen(node.world_from_local);
+    Affine local = world;
     if (node.parent != kNoIndex) {
-      const gltf::Affine& parent = worlds[static_cast<std::size_t>(node.parent)];
-      gltf::Affine parent_inverse{};
-      if (!gltf::inverse(parent, parent_inverse)) {
+      const Affine& parent = worlds[static_cast<std::size_t>(node.parent)];
+      Affine parent_inverse{};
+      if (!inverse(parent, parent_inverse)) {
         wrong("has node '" + node.name + "' under a parent without volume", "expected parents that can be inverted");
       }
-      local = gltf::product(parent_inverse, world);
-      worlds.push_back(gltf::product(parent, local));
+      local = product(parent_inverse, world);
+      worlds.push_back(product(parent, local));
       root_["nodes"][static_cast<std::size_t>(node.parent)]["children"].push_back(i);
     } else {
       worlds.push_back(world);
@@ -268,7 +267,7 @@ void GlbWriter::add_nodes() {
       for (int r = 0; r < 3; ++r) matrix.push_back(local.m[r][c]);
       matrix.push_back(c == 3 ? 1.0 : 0.0);
     }
-    if (std::memcmp(&local, &gltf::kAffineIdentity, sizeof local) != 0) out["matrix"] = std::move(matrix);
+    if (std::memcmp(&local, &kAffineIdentity, sizeof local) != 0) out["matrix"] = std::move(matrix);
     root_["nodes"].push_back(out.is_null() ? json::object() : std::move(out));
   }
 }
@@ -276,7 +275,9 @@ void GlbWriter::add_nodes() {
 void GlbWriter::add_primitive(const MeshPrimitive& mesh, json& primitives) {
   const std::size_t count = mesh.positions.size();
   require(mesh.normals.size() == count && (mesh.uvs.empty() || mesh.uvs.size() == count) &&
-              (mesh.colors.empty() || mesh.colors.size() == count),
+              (mesh.colors.empty() || mesh.colors.size() == count) &&
+              (mesh.uvs1.empty() || mesh.uvs1.size() == count) &&
+              (mesh.tangents.empty() || mesh.tangents.size() == count),
           "has a primitive with unequal numbers of attributes");
   require(!mesh.indices.empty() && mesh.indices.size() % 3 == 0, "has a primitive without whole triangles");
   require(*std::max_element(mesh.indices.begin(), mesh.indices.end()) < count, "has an index beyond its vertices");
@@ -293,6 +294,8 @@ void GlbWriter::add_primitive(const MeshPrimitive& mesh, json& primitives) {
   root_["accessors"].back()["max"] = exact(high);
   if (!mesh.flat_normals) attributes["NORMAL"] = add_accessor(mesh.normals, "VEC3");
   if (!mesh.uvs.empty()) attributes["TEXCOORD_0"] = add_accessor(mesh.uvs, "VEC2");
+  if (!mesh.uvs1.empty()) attributes["TEXCOORD_1"] = add_accessor(mesh.uvs1, "VEC2");
+  if (!mesh.tangents.empty()) attributes["TANGENT"] = add_accessor(mesh.tangents, "VEC4");
   if (!mesh.colors.empty()) attributes["COLOR_0"] = add_accessor(mesh.colors, "VEC4");
   if (mesh.influences != 0 && !scene_.skins.empty()) add_joints(mesh, attributes);
   const std::size_t indices = add_accessor(mesh.indices, "SCALAR");
@@ -403,9 +406,19 @@ void GlbWriter::add_meshes() {
 void GlbWriter::add_images() {
   const std::vector<Texture>& textures = scene_.materials.textures;
   std::vector<char> used(textures.size(), 0);
+  const auto use = [&](std::int32_t texture, bool as_data) {
+    require_index(texture, textures.size(), true, "texture");
+    if (texture == kNoTexture) return;
+    used[static_cast<std::size_t>(texture)] = 1;
+    require(!as_data || textures[static_cast<std::size_t>(texture)].format != TexelFormat::kRgba8Srgb,
+            "reads sRGB texture " + std::to_string(texture) + " as data");
+  };
   for (const Material& material : scene_.materials.materials) {
-    require_index(material.base_color_texture, textures.size(), true, "texture");
-    if (material.base_color_texture != kNoTexture) used[static_cast<std::size_t>(material.base_color_texture)] = 1;
+    use(material.base_color_texture, false);
+    use(material.emission.texture, false);
+    for (const MaterialMap* map : {&material.metallic_roughness, &material.normal, &material.occlusion}) {
+      use(map->texture, true);
+    }
   }
   image_of_texture_.assign(textures.size(), kNoIndex);
   images_.reserve(textures.size());
@@ -446,6 +459,37 @@ std::size_t GlbWriter::texture_number(std::int32_t image, const Sampler& sampler
   return number_of(root_["textures"], {{"sampler", sampler_number}, {"source", image}});
 }
 
+// A texture reference: the texture, its set of coordinates and their transform.
+json GlbWriter::map_json(std::int32_t texture, const Sampler& sampler, const UvMap& uv) {
+  require(uv.set == 0 || uv.set == 1, "reads texture coordinates numbered " + std::to_string(uv.set));
+  json out = json::object();
+  out["index"] = texture_number(image_of_texture_[static_cast<std::size_t>(texture)], sampler);
+  if (uv.set != 0) out["texCoord"] = uv.set;
+  if (uv.transformed) {
+    out["extensions"]["KHR_texture_transform"] = {{"offset", {exact(uv.offset.x), exact(uv.offset.y)}},
+                                                  {"rotation", exact(uv.rotation)},
+                                                  {"scale", {exact(uv.scale.x), exact(uv.scale.y)}}};
+    use_extension("KHR_texture_transform");
+  }
+  return out;
+}
+
+void GlbWriter::add_maps(const Material& material, json& out) {
+  const auto add = [&](const MaterialMap& map, json& to, const char* key) {
+    if (map.texture != kNoTexture) to[key] = map_json(map.texture, map.sampler, map.uv);
+  };
+  add(material.metallic_roughness, out["pbrMetallicRoughness"], "metallicRoughnessTexture");
+  add(material.normal, out, "normalTexture");
+  add(material.occlusion, out, "occlusionTexture");
+  add(material.emission, out, "emissiveTexture");
+  if (material.normal.texture != kNoTexture) out["normalTexture"]["scale"] = exact(material.normal_scale);
+  if (material.occlusion.texture != kNoTexture) out["occlusionTexture"]["strength"] = exact(material.occlusion_strength);
+  if (material.ior != 1.5f) {
+    out["extensions"]["KHR_materials_ior"]["ior"] = exact(material.ior);
+    use_extension("KHR_materials_ior");
+  }
+}
+
 json GlbWriter::material_json(const Material& material) {
   json out;
   json& pbr = out["pbrMetallicRoughness"];
@@ -454,8 +498,7 @@ json GlbWriter::material_json(const Material& material) {
   pbr["metallicFactor"] = exact(material.metallic);
   pbr["roughnessFactor"] = exact(material.roughness);
   if (material.base_color_texture != kNoTexture) {
-    const std::int32_t image = image_of_texture_[static_cast<std::size_t>(material.base_color_texture)];
-    pbr["baseColorTexture"]["index"] = texture_number(image, material.base_color_sampler);
+    pbr["baseColorTexture"] = map_json(material.base_color_texture, material.base_color_sampler, material.base_color_uv);
   }
   // Factors end at 1; a power of two as strength keeps every bit.
   float strength = 1;
@@ -466,6 +509,7 @@ json GlbWriter::material_json(const Material& material) {
     out["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = exact(strength);
     use_extension("KHR_materials_emissive_strength");
   }
+  add_maps(material, out);
   if (material.alpha_mode != AlphaMode::kOpaque) {
     out["alphaMode"] = material.alpha_mode == AlphaMode::kMask ? "MASK" : "BLEND";
   }
@@ -512,47 +556,6 @@ void GlbWriter::add_lights() {
     use_extension("KHR_lights_punctual");
   }
 }
-
-// Unlinked unless it has been renamed.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& path) : path_(path), temporary_(path + ".tmp-" + std::to_string(getpid())) {
-    const int descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor < 0) fail();
-    created_ = true;
-    stream_ = fdopen(descriptor, "wb");
-    if (stream_ == nullptr) {
-      close(descriptor);
-      unlink(temporary_.c_str());
-      fail();
-    }
-  }
-  ~TemporaryFile() {
-    if (stream_ != nullptr) std::fclose(stream_);
-    if (created_) unlink(temporary_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  std::FILE* stream() const { return stream_; }
-  void commit() {
-    const bool flushed = std::fflush(stream_) == 0 && fsync(fileno(stream_)) == 0;
-    const int error = errno;
-    const bool closed = std::fclose(stream_) == 0;
-    stream_ = nullptr;
-    if (!flushed) errno = error;
-    if (!flushed || !closed || std::rename(temporary_.c_str(), path_.c_str()) != 0) fail();
-    created_ = false;
-  }
-
- private:
-  [[noreturn]] void fail() const {
-    throw Error(path_ + ": cannot be written (" + std::strerror(errno) + "); expected a writable file and room for it");
-  }
-  std::string path_, temporary_;
-  bool created_ = false;
-  std::FILE* stream_ = nullptr;
-};
 
 }  // namespace
 

@@ -73,11 +73,11 @@ std::vector<float> read_floats(Document& document, std::size_t accessor, int com
 std::vector<std::uint32_t> read_indices(Document& document, std::size_t accessor, std::uint64_t vertex_count);
 std::uint64_t accessor_count(const Document& document, std::size_t accessor);
 
-// Where a primitive's texture coordinates come from, from its material (KHR_texture_transform).
+// What a material reads of its meshes.
 struct UvSource {
-  int set = 0;
-  bool transformed = false;
-  float m[2][3] = {{1, 0, 0}, {0, 1, 0}};
+  std::vector<int> sets;        // numbers of the file's TEXCOORD sets, by the number in UvMap::set; at most two
+  bool needs_tangents = false;  // it has a normal map, read with normal_uv
+  UvMap normal_uv;
 };
 
 // gltf_deform.cpp. Joints, weights and morph targets of a primitive whose positions are read.

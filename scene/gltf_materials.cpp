@@ -1,8 +1,7 @@
-// Materials, samplers, and the textures that base colours use.
+// Materials, samplers, and the textures that they use.
 #include <algorithm>
 #include <cmath>
 
-#include "core/math.h"
 #include "scene/gltf_internal.h"
 #include "scene/images.h"
 
@@ -84,44 +83,47 @@ double element_of(const Value& object, const char* key, int index, double fallba
   return element.IsNumber() ? element.GetNumberAsDouble() : fallback;
 }
 
-// Source: KHR_texture_transform, "Overview": uv' = translation * rotation * scale * uv. The rotation takes u towards -v
-// there, as the v axis points down.
-UvSource uv_source(Document& document, const tinygltf::TextureInfo& info, const std::string& label) {
-  UvSource source;
-  source.set = info.texCoord;
-  const auto it = info.extensions.find("KHR_texture_transform");
-  if (it == info.extensions.end() || !it->second.IsObject()) return source;
+// How a texture's coordinates are made. `set` is still the file's number.
+// Source: KHR_texture_transform: its texCoord goes before the texture's own.
+UvMap read_uv_map(const Document& document, int tex_coord, const tinygltf::ExtensionMap& extensions,
+                  const std::string& label) {
+  const auto it = extensions.find("KHR_texture_transform");
+  UvMap map;
+  map.set = tex_coord;
+  if (it == extensions.end() || !it->second.IsObject()) return map;
   const Value& transform = it->second;
-  if (transform.Has("texCoord")) source.set = static_cast<int>(number_at(transform, "texCoord", source.set));
+  const auto set = static_cast<std::int32_t>(number_at(transform, "texCoord", tex_coord));
   const double rotation = number_at(transform, "rotation", 0);
   if (!(std::fabs(rotation) <= 1e6)) {
     fail(document.path, label + " has a texture rotation of " + std::to_string(rotation), "expected radians");
   }
-  const float c = det_cos(static_cast<float>(rotation));
-  const float s = det_sin(static_cast<float>(rotation));
-  const auto scale_u = static_cast<float>(element_of(transform, "scale", 0, 1));
-  const auto scale_v = static_cast<float>(element_of(transform, "scale", 1, 1));
-  const float m[2][3] = {{c * scale_u, s * scale_v, static_cast<float>(element_of(transform, "offset", 0, 0))},
-                         {-s * scale_u, c * scale_v, static_cast<float>(element_of(transform, "offset", 1, 0))}};
-  for (int row = 0; row < 2; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      if (!std::isfinite(m[row][column])) {
+  const auto pair = [&](const char* key, double fallback) {
+    return Vec2f{static_cast<float>(element_of(transform, key, 0, fallback)),
+                 static_cast<float>(element_of(transform, key, 1, fallback))};
+  };
+  map = make_uv_map(set, pair("offset", 0), static_cast<float>(rotation), pair("scale", 1));
+  for (const auto& row : map.row) {
+    for (const float value : row) {
+      if (!std::isfinite(value)) {
         fail(document.path, label + " has a texture transform that overflows", "expected finite numbers");
       }
-      source.m[row][column] = m[row][column];
     }
   }
-  source.transformed = true;
-  return source;
+  return map;
 }
 
-// The image behind a material's base colour; -1: none, or none that can be read.
-int base_color_image(const Document& document, const tinygltf::Material& material) {
-  const int texture = material.pbrMetallicRoughness.baseColorTexture.index;
+// The image behind a texture; -1: none, or none that can be read.
+int image_of(const Document& document, int texture) {
   return texture < 0 ? -1 : document.model.textures.at(static_cast<std::size_t>(texture)).source;
 }
 
-Texture read_image(Document& document, const EncodedImage& image) {
+bool is_unlit(const tinygltf::Material& material) { return material.extensions.count("KHR_materials_unlit") != 0; }
+
+bool glows(const tinygltf::Material& material) {
+  return std::any_of(material.emissiveFactor.begin(), material.emissiveFactor.end(), [](double f) { return f > 0; });
+}
+
+Texture read_image(Document& document, const EncodedImage& image, bool srgb) {
   const std::string name = one_line(document.path, 4096) + ": " + image.label;
   std::vector<std::uint8_t> from_file;
   Bytes bytes = image.bytes;
@@ -135,41 +137,128 @@ Texture read_image(Document& document, const EncodedImage& image) {
   // Sixteen or eight bytes a texel, and a third more for the mips.
   const std::uint64_t texels = static_cast<std::uint64_t>(size.width + 1) * static_cast<std::uint64_t>(size.height + 1);
   charge(document, texels * (size.is_float ? 16 : 8) / 3 * 4, image.label);
-  return decode_texture(bytes, name, image.srgb, limits);
+  return decode_texture(bytes, name, srgb && image.srgb, limits);
 }
 
-// Decodes the images that base colours use, in the file's order. Returns each image's place among the textures.
-std::vector<std::int32_t> read_textures(Document& document, Materials& materials) {
-  std::vector<char> used(document.images.size(), 0);
+// Each image's place among the textures, as colours and as data; one that is both is two textures.
+struct TexturePlaces {
+  std::vector<std::int32_t> color, data;
+};
+
+// Decodes the images that materials use, in the file's order.
+TexturePlaces read_textures(Document& document, Materials& materials) {
+  const std::size_t count = document.images.size();
+  std::vector<char> is_color(count, 0), is_data(count, 0);
+  const auto use = [&](std::vector<char>& as, int texture) {
+    const int image = image_of(document, texture);
+    if (image >= 0) as.at(static_cast<std::size_t>(image)) = 1;
+  };
   for (const tinygltf::Material& material : document.model.materials) {
-    const int image = base_color_image(document, material);
-    if (image >= 0) used.at(static_cast<std::size_t>(image)) = 1;
+    use(is_color, material.pbrMetallicRoughness.baseColorTexture.index);
+    if (is_unlit(material)) continue;
+    if (glows(material)) use(is_color, material.emissiveTexture.index);
+    use(is_data, material.pbrMetallicRoughness.metallicRoughnessTexture.index);
+    use(is_data, material.normalTexture.index);
+    use(is_data, material.occlusionTexture.index);
   }
-  std::vector<std::int32_t> places(used.size(), kNoTexture);
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!used[i]) continue;
-    places[i] = static_cast<std::int32_t>(materials.textures.size());
-    materials.textures.push_back(read_image(document, document.images[i]));
+  TexturePlaces places;
+  places.color.assign(count, kNoTexture);
+  places.data.assign(count, kNoTexture);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto add = [&](bool srgb) {
+      materials.textures.push_back(read_image(document, document.images[i], srgb));
+      return static_cast<std::int32_t>(materials.textures.size() - 1);
+    };
+    if (is_color[i]) places.color[i] = add(true);
+    if (!is_data[i]) continue;
+    const bool shared = is_color[i] && materials.textures.back().format != TexelFormat::kRgba8Srgb;
+    places.data[i] = shared ? places.color[i] : add(false);
   }
   return places;
 }
 
+// What tinygltf's kinds of texture reference have in common.
+template <class Info>
+MaterialMap read_map(Document& document, const Info& info, const std::vector<std::int32_t>& places,
+                     const std::string& label) {
+  MaterialMap map;
+  if (info.index < 0) return map;
+  const int image = image_of(document, info.index);
+  if (image < 0) {
+    warn(document, "some textures have no image that can be read: their materials go without them");
+    return map;
+  }
+  map.texture = places.at(static_cast<std::size_t>(image));
+  map.sampler = read_sampler(document, document.model.textures[static_cast<std::size_t>(info.index)].sampler);
+  map.uv = read_uv_map(document, info.texCoord, info.extensions, label);
+  return map;
+}
+
 void read_base_color(Document& document, const tinygltf::Material& from, const std::string& label,
-                     const std::vector<std::int32_t>& texture_places, Material& material, UvSource& source) {
+                     const TexturePlaces& places, Material& material) {
   const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
   float rgba[4];
   for (std::size_t i = 0; i < 4; ++i) rgba[i] = factor(document, pbr.baseColorFactor.at(i), 1, "base colour factor");
   material.base_color = {rgba[0], rgba[1], rgba[2], rgba[3]};
-  if (pbr.baseColorTexture.index < 0) return;
-  source = uv_source(document, pbr.baseColorTexture, label);
-  const int image = base_color_image(document, from);
-  if (image < 0) {
-    warn(document, "some textures have no image that can be read: their materials have the base colour factor alone");
-    return;
+  const MaterialMap map = read_map(document, pbr.baseColorTexture, places.color, label);
+  material.base_color_texture = map.texture;
+  material.base_color_sampler = map.sampler;
+  material.base_color_uv = map.uv;
+}
+
+// All maps but the base colour's.
+void read_maps(Document& document, const tinygltf::Material& from, const std::string& label,
+               const TexturePlaces& places, Material& material) {
+  material.metallic_roughness =
+      read_map(document, from.pbrMetallicRoughness.metallicRoughnessTexture, places.data, label);
+  material.normal = read_map(document, from.normalTexture, places.data, label);
+  material.occlusion = read_map(document, from.occlusionTexture, places.data, label);
+  if (glows(from)) material.emission = read_map(document, from.emissiveTexture, places.color, label);
+  if (material.normal.texture != kNoTexture) {
+    const double scale = from.normalTexture.scale;
+    if (!(std::fabs(scale) <= 1e6)) {
+      fail(document.path, label + " has a normal scale of " + std::to_string(scale), "expected at most a million");
+    }
+    material.normal_scale = static_cast<float>(scale);
   }
-  const int sampler = document.model.textures[static_cast<std::size_t>(pbr.baseColorTexture.index)].sampler;
-  material.base_color_texture = texture_places.at(static_cast<std::size_t>(image));
-  material.base_color_sampler = read_sampler(document, sampler);
+  if (material.occlusion.texture != kNoTexture) {
+    material.occlusion_strength = factor(document, from.occlusionTexture.strength, 1, "occlusion strength");
+  }
+}
+
+// Source: KHR_materials_ior: 1 or more, or 0 for full reflection.
+void read_ior(Document& document, const tinygltf::Material& from, Material& material) {
+  const auto it = from.extensions.find("KHR_materials_ior");
+  if (it == from.extensions.end() || !it->second.IsObject()) return;
+  const double ior = number_at(it->second, "ior", 1.5);
+  if (ior != 0 && !(ior >= 1 && ior <= 1e6)) {
+    warn(document, "some materials have an ior that is neither 0 nor from 1 on: clamped");
+  }
+  material.ior = ior == 0 ? 0.0f : static_cast<float>(std::fmin(std::fmax(ior, 1.0), 1e6));
+}
+
+// Numbers the sets of coordinates that a material's textures use, two at most, in increasing order.
+UvSource number_uv_sets(Document& document, Material& material) {
+  UvSource source;
+  std::vector<UvMap*> maps;
+  const auto use = [&](std::int32_t texture, UvMap& uv) {
+    if (texture != kNoTexture) maps.push_back(&uv);
+  };
+  use(material.base_color_texture, material.base_color_uv);
+  for (MaterialMap* map : {&material.metallic_roughness, &material.normal, &material.occlusion, &material.emission}) {
+    use(map->texture, map->uv);
+  }
+  for (const UvMap* map : maps) source.sets.push_back(map->set);
+  std::sort(source.sets.begin(), source.sets.end());
+  source.sets.erase(std::unique(source.sets.begin(), source.sets.end()), source.sets.end());
+  if (source.sets.size() > 2) {
+    warn(document, "some materials use more than two sets of texture coordinates: the third and on are taken for the first");
+    source.sets.resize(2);
+  }
+  for (UvMap* map : maps) map->set = source.sets.size() > 1 && map->set == source.sets[1] ? 1 : 0;
+  source.needs_tangents = material.normal.texture != kNoTexture;
+  source.normal_uv = material.normal.uv;
+  return source;
 }
 
 void read_alpha(Document& document, const tinygltf::Material& from, const std::string& label, Material& material) {
@@ -196,19 +285,12 @@ void read_emissive(Document& document, const tinygltf::Material& from, Material&
     rgb[i] = static_cast<float>(factor(document, from.emissiveFactor[i], 1, "emissive factor") * strength);
   }
   material.emissive = {rgb[0], rgb[1], rgb[2]};
-  if (from.emissiveTexture.index >= 0 && rgb[0] + rgb[1] + rgb[2] > 0) {
-    // The factor alone would make the whole surface glow.
-    material.emissive = {0, 0, 0};
-    warn(document, "emissive textures are not read yet: their materials do not glow");
-  }
 }
 
 void warn_unread(Document& document, const tinygltf::Material& from) {
-  if (from.normalTexture.index >= 0) warn(document, "normal textures are not read yet");
-  if (from.occlusionTexture.index >= 0) warn(document, "occlusion textures are not read yet");
   for (const auto& [name, value] : from.extensions) {
     (void)value;
-    if (name != "KHR_materials_unlit" && name != "KHR_materials_emissive_strength") {
+    if (name != "KHR_materials_unlit" && name != "KHR_materials_emissive_strength" && name != "KHR_materials_ior") {
       warn(document, "extension " + one_line(name, 60) + " is not read yet");
     }
   }
@@ -218,28 +300,24 @@ void warn_unread(Document& document, const tinygltf::Material& from) {
 
 std::vector<UvSource> read_materials(Document& document, Scene& scene) {
   std::vector<UvSource> sources;
-  const std::vector<std::int32_t> texture_places = read_textures(document, scene.materials);
+  const TexturePlaces places = read_textures(document, scene.materials);
   for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
     const tinygltf::Material& from = document.model.materials[i];
     const std::string label = label_of("materials", i, from.name);
     Material material;
-    UvSource source;
-    read_base_color(document, from, label, texture_places, material, source);
+    read_base_color(document, from, label, places, material);
     read_alpha(document, from, label, material);
     read_emissive(document, from, material);
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
     material.metallic = factor(document, pbr.metallicFactor, 1, "metallic factor");
     material.roughness = factor(document, pbr.roughnessFactor, 1, "roughness factor");
     material.double_sided = from.doubleSided;
-    material.unlit = from.extensions.count("KHR_materials_unlit") != 0;
-    if (pbr.metallicRoughnessTexture.index >= 0) {
-      // The factors of a textured material are usually 1, which alone would be bare metal.
-      material.metallic = 0;
-      warn(document, "metallic-roughness textures are not read yet: their materials are no metal, rough as the factor");
-    }
+    material.unlit = is_unlit(from);
+    if (!material.unlit) read_maps(document, from, label, places, material);
+    read_ior(document, from, material);
     warn_unread(document, from);
+    sources.push_back(number_uv_sets(document, material));
     scene.materials.materials.push_back(material);
-    sources.push_back(source);
   }
   return sources;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scene/gltf_internal.h"
+#include "scene/tangents.h"
 
 namespace shoal::gltf {
 namespace {
@@ -122,10 +123,12 @@ std::vector<T> expanded(const std::vector<T>& values, const std::vector<std::uin
 // One vertex a corner, so that each triangle has its own normal.
 void generate_flat_normals(Document& document, MeshPrimitive& mesh, const std::string& label) {
   const std::uint64_t corner_bytes =
-      2 * sizeof(Vec3f) + (mesh.uvs.empty() ? 0 : sizeof(Vec2f)) + (mesh.colors.empty() ? 0 : sizeof(Vec4f));
+      2 * sizeof(Vec3f) + (mesh.uvs.empty() ? 0 : sizeof(Vec2f)) + (mesh.uvs1.empty() ? 0 : sizeof(Vec2f)) +
+      (mesh.colors.empty() ? 0 : sizeof(Vec4f));
   charge(document, mesh.indices.size() * corner_bytes, label);
   mesh.positions = expanded(mesh.positions, mesh.indices);
   mesh.uvs = expanded(mesh.uvs, mesh.indices);
+  mesh.uvs1 = expanded(mesh.uvs1, mesh.indices);
   mesh.colors = expanded(mesh.colors, mesh.indices);
   expand_deformation(document, mesh, label);
   mesh.normals.resize(mesh.positions.size());
@@ -166,22 +169,43 @@ void read_normals(Document& document, const Attribute& attribute, const std::str
   if (any_zero) warn(document, "some normals have no length: +y is used for them");
 }
 
-void read_uvs(Document& document, const Attribute& attribute, const UvSource& source, const std::string& label,
-              MeshPrimitive& mesh) {
-  const std::vector<float> values = read_floats(document, attribute.accessor, 2, label + ".TEXCOORD");
-  mesh.uvs.resize(values.size() / 2);
-  for (std::size_t i = 0; i < mesh.uvs.size(); ++i) {
-    const float u = values[2 * i], v = values[2 * i + 1];
-    mesh.uvs[i] = {u, v};
-    if (source.transformed) {
-      mesh.uvs[i] = {(source.m[0][0] * u + source.m[0][1] * v) + source.m[0][2],
-                     (source.m[1][0] * u + source.m[1][1] * v) + source.m[1][2]};
+// One set of the file; empty where the primitive lacks it.
+std::vector<Vec2f> read_uvs(Document& document, const tinygltf::Primitive& primitive, int set, std::uint64_t count,
+                            const std::string& label) {
+  const std::string name = "TEXCOORD_" + std::to_string(set);
+  const Attribute attribute = find_attribute(document, primitive, name.c_str(), 2, 2, label);
+  if (!attribute.present) return {};
+  check_count(document, attribute, count, name.c_str(), label);
+  const std::vector<float> values = read_floats(document, attribute.accessor, 2, label + "." + name);
+  std::vector<Vec2f> uvs(values.size() / 2);
+  for (std::size_t i = 0; i < uvs.size(); ++i) uvs[i] = {values[2 * i], values[2 * i + 1]};
+  return uvs;
+}
+
+// Of unit length, w 1 or -1. A tangent without a direction goes along x: nothing sensible can be made of it.
+void read_tangents(Document& document, const Attribute& attribute, const std::string& label, MeshPrimitive& mesh) {
+  const std::vector<float> values = read_floats(document, attribute.accessor, 4, label + ".TANGENT");
+  mesh.tangents.resize(values.size() / 4);
+  for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
+    bool was_zero = false;
+    Vec3f t = unit_normal({values[4 * i], values[4 * i + 1], values[4 * i + 2]}, was_zero);
+    if (was_zero) {
+      t = {1, 0, 0};
+      warn(document, "some tangents have no length: +x is used for them");
     }
-    if (!std::isfinite(mesh.uvs[i].x) || !std::isfinite(mesh.uvs[i].y)) {
-      fail(document.path, label + ".TEXCOORD[" + std::to_string(i) + "] overflows under its texture transform",
-           "expected finite coordinates");
-    }
+    mesh.tangents[i] = {t.x, t.y, t.z, values[4 * i + 3] < 0 ? -1.0f : 1.0f};
   }
+}
+
+void make_tangents(Document& document, const UvSource& source, const std::string& label, MeshPrimitive& mesh) {
+  charge(document, mesh.positions.size() * 4 * sizeof(Vec4f) + mesh.indices.size() * sizeof(Vec4f), label);
+  const UvMap& map = source.normal_uv;
+  std::vector<Vec2f> uvs = map.set == 1 ? mesh.uvs1 : mesh.uvs;
+  uvs.resize(mesh.positions.size(), Vec2f{0, 0});
+  if (map.transformed) {
+    for (Vec2f& uv : uvs) uv = transform_uv<float>(map, {uv, {0, 0}, {0, 0}}).uv;
+  }
+  generate_tangents(mesh, uvs);
 }
 
 void read_colors(Document& document, const Attribute& attribute, const std::string& label, MeshPrimitive& mesh) {
@@ -194,19 +218,15 @@ void read_colors(Document& document, const Attribute& attribute, const std::stri
   }
 }
 
-void warn_unread(Document& document, const tinygltf::Primitive& primitive, int uv_set) {
-  const std::string read_uv = "TEXCOORD_" + std::to_string(uv_set);
+void warn_unread(Document& document, const tinygltf::Primitive& primitive) {
   for (const auto& [name, accessor] : primitive.attributes) {
     (void)accessor;
-    // Tangents belong to normal textures, joints and weights to skins: those are named where they are met.
+    // Sets that no texture uses and tangents without a normal map change nothing; joints and weights belong to skins.
     const bool known = name == "POSITION" || name == "NORMAL" || name == "TANGENT" || name == "COLOR_0" ||
-                       name.rfind("JOINTS_", 0) == 0 || name.rfind("WEIGHTS_", 0) == 0 || name == read_uv;
-    if (known || name == "TEXCOORD_0" || name.rfind("_", 0) == 0) continue;
-    if (name.rfind("TEXCOORD_", 0) == 0) {
-      warn(document, "texture coordinate sets that no base colour uses are not read yet");
-    } else {
-      warn(document, "vertex attribute " + one_line(name, 40) + " is not read yet");
-    }
+                       name.rfind("TEXCOORD_", 0) == 0 || name.rfind("JOINTS_", 0) == 0 ||
+                       name.rfind("WEIGHTS_", 0) == 0;
+    if (known || name.rfind("_", 0) == 0) continue;
+    warn(document, "vertex attribute " + one_line(name, 40) + " is not read yet");
   }
 }
 
@@ -223,25 +243,33 @@ bool is_drawn(Document& document, const tinygltf::Primitive& primitive) {
 
 MeshPrimitive read_primitive(Document& document, const tinygltf::Primitive& primitive, const UvSource& uv_source,
                              const std::string& label) {
-  const std::string uv_name = "TEXCOORD_" + std::to_string(uv_source.set);
   const Attribute position = find_attribute(document, primitive, "POSITION", 3, 3, label);
   const Attribute normal = find_attribute(document, primitive, "NORMAL", 3, 3, label);
-  const Attribute uv = find_attribute(document, primitive, uv_name.c_str(), 2, 2, label);
+  const Attribute tangent = find_attribute(document, primitive, "TANGENT", 4, 4, label);
   const Attribute color = find_attribute(document, primitive, "COLOR_0", 3, 4, label);
   const std::uint64_t count = accessor_count(document, position.accessor);
   if (normal.present) check_count(document, normal, count, "NORMAL", label);
-  if (uv.present) check_count(document, uv, count, uv_name.c_str(), label);
+  if (tangent.present) check_count(document, tangent, count, "TANGENT", label);
   if (color.present) check_count(document, color, count, "COLOR_0", label);
 
   MeshPrimitive mesh;
   mesh.indices = read_corners(document, primitive, count, label);
   read_positions(document, position, label, mesh);
   if (normal.present) read_normals(document, normal, label, mesh);
-  if (uv.present) read_uvs(document, uv, uv_source, label, mesh);
+  mesh.uvs = read_uvs(document, primitive, uv_source.sets.empty() ? 0 : uv_source.sets[0], count, label);
+  if (uv_source.sets.size() > 1) mesh.uvs1 = read_uvs(document, primitive, uv_source.sets[1], count, label);
   if (color.present) read_colors(document, color, label, mesh);
   read_deformation(document, primitive, count, label, mesh);
   if (!normal.present) generate_flat_normals(document, mesh, label);
-  warn_unread(document, primitive, uv_source.set);
+  // Specification, 3.7.2.1: tangents without normals are ignored.
+  if (uv_source.needs_tangents) {
+    if (tangent.present && normal.present) {
+      read_tangents(document, tangent, label, mesh);
+    } else {
+      make_tangents(document, uv_source, label, mesh);
+    }
+  }
+  warn_unread(document, primitive);
   return mesh;
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "scene/gltf_internal.h"
-#include "scene/gltf_transform.h"
+#include "scene/transform.h"
 
 namespace shoal::gltf {
 namespace {

@@ -14,7 +14,8 @@ constexpr std::uint64_t kMaxIndex = 0x7FFFFFFF;
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 40;
 
 // Read at all, and enough of each to draw what it asks for.
-constexpr const char* kSupportedExtensions[] = {"EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_emissive_strength",
+constexpr const char* kSupportedExtensions[] = {"EXT_mesh_gpu_instancing", "KHR_lights_punctual",
+                                                "KHR_materials_emissive_strength", "KHR_materials_ior",
                                                 "KHR_materials_unlit", "KHR_mesh_quantization",
                                                 "KHR_texture_transform"};
 
@@ -313,6 +314,8 @@ void Checker::check_materials() const {
     json* extensions = object(material, "extensions", where);
     json* strength = extensions == nullptr ? nullptr : object(*extensions, "KHR_materials_emissive_strength", where);
     if (strength != nullptr) number(*strength, "emissiveStrength", where);
+    json* ior = extensions == nullptr ? nullptr : object(*extensions, "KHR_materials_ior", where);
+    if (ior != nullptr) number(*ior, "ior", where);
   });
   each("textures", [&](json& texture, const std::string& where) {
     index(texture, "sampler", where, "samplers");

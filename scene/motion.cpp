@@ -56,11 +56,13 @@ void update_chunk(const MovingDrawable& d, const Deformer& deformer, Chunk& chun
       const std::uint32_t source = d.source[i - d.first_vertex];
       vertex.position_world = deformer.position(source);
       vertex.normal_world = deformer.normal(source);
+      if (deformer.has_tangents()) g.tangents[i] = deformer.tangent(source);
       if (!is_finite(vertex.position_world)) {
         fail(scene, scene.nodes[d.node], "a vertex is not finite in world space; expected finite positions");
       }
     } else {
       vertex = g.vertices[i - 1];
+      if (deformer.has_tangents()) g.tangents[i] = g.tangents[i - 1];
     }
     g.x_world[i] = vertex.position_world.x;
     g.y_world[i] = vertex.position_world.y;
@@ -162,7 +164,7 @@ void include(Motion& motion, const Geometry& g, std::size_t first) {
 
 void place_nodes(Scene& scene, const Pose& pose) {
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
-    scene.nodes[n].world_from_local = gltf::narrow(pose.world_from_local[n]);
+    scene.nodes[n].world_from_local = narrow(pose.world_from_local[n]);
   }
 }
 
@@ -206,7 +208,7 @@ Camera camera_at(const RenderScene& scene, const PlacedCamera& placed, double ti
   const bool of_node = scene.moves() && m.scene.nodes[placed.node].camera != kNoIndex;
   if (!of_node || !place_moves(m.node_moves, placed.node)) return placed.camera;
   Node node = m.scene.nodes[placed.node];
-  node.world_from_local = gltf::narrow(pose_scene(m.scene, time_s).world_from_local[placed.node]);
+  node.world_from_local = narrow(pose_scene(m.scene, time_s).world_from_local[placed.node]);
   return place_camera(m.scene, node, placed.node).camera;
 }
 

@@ -24,6 +24,8 @@ struct MeshPrimitive {
   std::vector<Vec3f> normals;  // unit, one a vertex; never empty: the loader generates missing ones (flat)
   std::vector<Vec2f> uvs;      // empty or one a vertex
   std::vector<Vec4f> colors;   // empty or one a vertex: linear RGBA
+  std::vector<Vec2f> uvs1;     // empty, or one a vertex where the material reads a second set
+  std::vector<Vec4f> tangents; // empty, or one a vertex where the material has a normal map: unit, w 1 or -1
   std::vector<std::uint32_t> indices;  // three a triangle, each < positions.size()
   std::int32_t material = 0;           // always valid: a default material is appended where the file has none
 

@@ -6,7 +6,7 @@
 #include "core/vec.h"
 #include "scene/animation.h"
 
-namespace shoal::gltf {
+namespace shoal {
 
 struct Affine {
   double m[3][4];  // row-major; the last row is 0 0 0 1
@@ -99,4 +99,4 @@ inline Mat4 narrow(const Affine& a) {
   return out;
 }
 
-}  // namespace shoal::gltf
+}  // namespace shoal

@@ -48,7 +48,7 @@ Scene swaying_box() {
 Scene frozen(const Scene& moving, double time_s) {
   Scene still = moving;
   const Pose pose = pose_scene(moving, time_s);
-  for (std::size_t n = 0; n < still.nodes.size(); ++n) still.nodes[n].world_from_local = gltf::narrow(pose.world_from_local[n]);
+  for (std::size_t n = 0; n < still.nodes.size(); ++n) still.nodes[n].world_from_local = narrow(pose.world_from_local[n]);
   still.animations.clear();
   still.locals.clear();
   return still;

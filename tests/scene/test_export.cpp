@@ -30,6 +30,22 @@ void check_same(const Texture& a, const Texture& b) {
   CHECK(same_bits(a.rgba32f, b.rgba32f));
 }
 
+void check_same(const UvMap& a, const UvMap& b) {
+  CHECK(a.set == b.set);
+  CHECK(a.transformed == b.transformed);
+  CHECK(same_bits(a.offset, b.offset));
+  CHECK(same_bits(a.scale, b.scale));
+  CHECK(same_bits(a.rotation, b.rotation));
+  CHECK(same_bits(a.row, b.row));
+}
+
+void check_same(const MaterialMap& a, const MaterialMap& b) {
+  CHECK(a.texture == b.texture);
+  CHECK(a.sampler.wrap_u == b.sampler.wrap_u);
+  CHECK(a.sampler.minify == b.sampler.minify);
+  check_same(a.uv, b.uv);
+}
+
 void check_same(const Material& a, const Material& b) {
   CHECK(same_bits(a.base_color, b.base_color));
   CHECK(a.base_color_texture == b.base_color_texture);
@@ -45,6 +61,14 @@ void check_same(const Material& a, const Material& b) {
   CHECK(same_bits(a.alpha_cutoff, b.alpha_cutoff));
   CHECK(a.double_sided == b.double_sided);
   CHECK(a.unlit == b.unlit);
+  check_same(a.base_color_uv, b.base_color_uv);
+  check_same(a.metallic_roughness, b.metallic_roughness);
+  check_same(a.normal, b.normal);
+  check_same(a.occlusion, b.occlusion);
+  check_same(a.emission, b.emission);
+  CHECK(same_bits(a.normal_scale, b.normal_scale));
+  CHECK(same_bits(a.occlusion_strength, b.occlusion_strength));
+  CHECK(same_bits(a.ior, b.ior));
 }
 
 void check_same(const WaterSpec& a, const WaterSpec& b) {
@@ -81,6 +105,8 @@ void check_same_meshes(const Scene& a, const Scene& b) {
       CHECK(same_bits(x.normals, y.normals));
       CHECK(same_bits(x.uvs, y.uvs));
       CHECK(same_bits(x.colors, y.colors));
+      CHECK(same_bits(x.uvs1, y.uvs1));
+      CHECK(same_bits(x.tangents, y.tangents));
       CHECK(x.indices == y.indices);
       CHECK(x.material == y.material);
     }
@@ -173,6 +199,18 @@ Scene full_scene() {
   scene.materials.materials[3].base_color_sampler.mip = MipFilter::kNearest;
   scene.materials.materials[3].base_color_sampler.wrap_v = Wrap::kMirror;
 
+  Material& mapped = scene.materials.materials[4];  // of meshes[1]
+  mapped.base_color_texture = 0;
+  mapped.base_color_uv = make_uv_map(1, {0.1f, -0.2f}, 0.3f, {3, 0.7f});
+  mapped.metallic_roughness = {1, {}, {}};
+  mapped.normal = {1, {Wrap::kClamp, Wrap::kRepeat, Filter::kLinear, Filter::kNearest, MipFilter::kLinear}, {}};
+  mapped.occlusion = {1, {}, make_uv_map(1, {0, 0}, 0, {2, 2})};
+  mapped.emission = {0, {}, {}};
+  mapped.emissive = {1, 2, 3};
+  mapped.normal_scale = -0.3f;
+  mapped.occlusion_strength = 0.7f;
+  mapped.ior = 1.31f;
+
   scene.meshes.resize(2);
   scene.meshes[0].name = "both \"quoted\" \xC3\xBC";
   scene.meshes[0].primitives = {triangle(1), triangle(0.3f)};
@@ -181,6 +219,9 @@ Scene full_scene() {
   scene.meshes[0].primitives[1].colors = {{1, 0.5f, 0.1f, 1}, {0, 0, 0, 0}, {0.3f, 0.2f, 0.1f, 0.9f}};
   scene.meshes[1].primitives = {triangle(5)};
   scene.meshes[1].primitives[0].material = 4;
+  scene.meshes[1].primitives[0].uvs = {{0.1f, 0.2f}, {0.3f, 0.4f}, {0.5f, 0.6f}};
+  scene.meshes[1].primitives[0].uvs1 = {{1.1f, 0.2f}, {-0.3f, 0.4f}, {1e-20f, 0.6f}};
+  scene.meshes[1].primitives[0].tangents = {{0, 0.6f, -0.8f, 1}, {1, 0, 0, -1}, {0, 0, 1, 1}};
 
   scene.cameras.resize(2);
   scene.cameras[0].yfov = 0.7f;

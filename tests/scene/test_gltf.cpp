@@ -262,9 +262,9 @@ TEST_CASE("gltf: materials, samplers and what is only warned of", "[gltf]") {
   CHECK(m.base_color_sampler.mip == MipFilter::kNearest);
   REQUIRE(scene.materials.textures.size() == 1);
   CHECK(texture_bytes(scene.materials.textures[0]) == std::vector<std::uint8_t>{10, 20, 30, 255});
-  CHECK(has_warning(scene, "normal textures"));
+  CHECK(m.normal.texture == kNoTexture);  // nothing of an unlit material would show it
   CHECK(has_warning(scene, "EXT_glitter"));
-  CHECK(scene.warnings.size() == 2);
+  CHECK(scene.warnings.size() == 1);
 }
 
 TEST_CASE("gltf: a primitive without material gets a default one", "[gltf]") {
@@ -289,13 +289,52 @@ TEST_CASE("gltf: the base colour's coordinate set and its transform", "[gltf]") 
   // A quarter turn: the extension's matrix is (cos, sin; -sin, cos), so (1, 0) goes to (0, -1) and (0, 1) to (1, 0).
   info["extensions"]["KHR_texture_transform"] = {{"offset", {0.5, 2}}, {"scale", {2, 4}}, {"rotation", 1.57079632679}};
   const Scene scene = load(file);
-  const std::vector<Vec2f>& uvs = scene.meshes[0].primitives[0].uvs;
-  CHECK(uvs[0].x == Approx(0.5).margin(1e-6));
-  CHECK(uvs[0].y == Approx(2 - 2).margin(1e-6));
-  CHECK(uvs[1].x == Approx(0.5 + 4).margin(1e-6));
-  CHECK(uvs[1].y == Approx(2).margin(1e-6));
-  CHECK(uvs[2].x == Approx(0.5 + 4).margin(1e-6));
-  CHECK(uvs[2].y == Approx(0).margin(1e-6));
+  const MeshPrimitive& mesh = scene.meshes[0].primitives[0];
+  const UvMap& map = scene.materials.materials[0].base_color_uv;
+  CHECK((map.set == 0 && mesh.uvs1.empty()));  // the only set that is used is the first
+  const auto moved = [&](std::size_t i) {
+    return transform_uv<float>(map, {mesh.uvs[i], {0, 0}, {0, 0}}).uv;
+  };
+  CHECK(moved(0).x == Approx(0.5).margin(1e-6));
+  CHECK(moved(0).y == Approx(2 - 2).margin(1e-6));
+  CHECK(moved(1).x == Approx(0.5 + 4).margin(1e-6));
+  CHECK(moved(1).y == Approx(2).margin(1e-6));
+  CHECK(moved(2).x == Approx(0.5 + 4).margin(1e-6));
+  CHECK(moved(2).y == Approx(0).margin(1e-6));
+}
+
+TEST_CASE("gltf: maps, their factors, sets of coordinates and colour spaces", "[gltf]") {
+  CraftedFile file = good_file();
+  const std::size_t second = file.add_floats({1, 0, 0, 1, 1, 1}, "VEC2", 2);
+  file.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_3"] = second;
+  json& material = file.root["materials"][0];
+  material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 0}, {"texCoord", 3}};
+  material["normalTexture"] = {{"index", 0}, {"scale", -2}};
+  material["occlusionTexture"] = {{"index", 0}, {"strength", 0.25}};
+  material["emissiveTexture"] = {{"index", 0}};
+  material["emissiveFactor"] = {0, 1, 0};
+  material["extensions"]["KHR_materials_ior"]["ior"] = 1.25;
+  const Scene scene = load(file);
+  const Material& m = scene.materials.materials[0];
+  // One image, as a colour and as data.
+  REQUIRE(scene.materials.textures.size() == 2);
+  CHECK(scene.materials.textures[0].format == TexelFormat::kRgba8Srgb);
+  CHECK(scene.materials.textures[1].format == TexelFormat::kRgba8Linear);
+  CHECK((m.base_color_texture == 0 && m.emission.texture == 0));
+  CHECK((m.metallic_roughness.texture == 1 && m.normal.texture == 1 && m.occlusion.texture == 1));
+  CHECK((m.normal_scale == -2 && m.occlusion_strength == 0.25f && m.ior == 1.25f));
+  CHECK((m.normal.uv.set == 0 && m.metallic_roughness.uv.set == 1));
+  const MeshPrimitive& mesh = scene.meshes[0].primitives[0];
+  REQUIRE(mesh.uvs1.size() == 3);
+  CHECK((mesh.uvs1[1].x == 0 && mesh.uvs1[1].y == 1));
+  CHECK(mesh.tangents.size() == mesh.positions.size());  // generated
+  CHECK(scene.warnings.empty());
+
+  const std::size_t tangents = file.add_floats({0, 2, 0, 1, 0, 1, 0, -1, 0, 1, 0, -1}, "VEC4", 4);
+  file.root["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = tangents;
+  const MeshPrimitive given = load(file).meshes[0].primitives[0];
+  REQUIRE(given.tangents.size() == 3);
+  CHECK((given.tangents[0].y == 1 && given.tangents[0].w == 1 && given.tangents[1].w == -1));
 }
 
 TEST_CASE("gltf: water from an object, from flat keys, from a check box", "[gltf]") {
