@@ -39,7 +39,8 @@ std::uint64_t count_vertices(const Scene& scene) {
   std::uint64_t count = 0;
   for (const Node& node : scene.nodes) {
     if (node.mesh == kNoIndex) continue;
-    for (const MeshPrimitive& p : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) count += p.positions.size();
+    for (const MeshPrimitive& p : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+      count += p.positions.size();
   }
   return count;
 }
@@ -62,10 +63,12 @@ Json info_json(const std::string& name, const LoadedScene& loaded) {
   json["animations"] = Json::array();
   for (const Animation& animation : scene.animations) json["animations"].push_back(animation.name);
   json["cameras"] = Json::array();
-  for (const PlacedCamera& camera : loaded.render.cameras) json["cameras"].push_back(camera_json(camera, loaded.render, scene));
+  for (const PlacedCamera& camera : loaded.render.cameras)
+    json["cameras"].push_back(camera_json(camera, loaded.render, scene));
   json["water"] = Json::array();
   for (const WaterBody& body : loaded.render.waters) json["water"].push_back(body_json(body));
-  json["bounds"] = {{"min", json_vector(loaded.render.bounds_min_world)}, {"max", json_vector(loaded.render.bounds_max_world)}};
+  json["bounds"] = {{"min", json_vector(loaded.render.bounds_min_world)},
+                    {"max", json_vector(loaded.render.bounds_max_world)}};
   json["warnings"] = scene.warnings;
   return json;
 }

@@ -10,7 +10,8 @@ namespace shoal::app {
 int run_list(const std::string& kind) {
   std::string lines;
   if (kind == "methods") {
-    for (const MethodInfo& m : method_infos()) lines += fmt::format("{:<16} {} ({})\n", m.name, m.description, m.source);
+    for (const MethodInfo& m : method_infos())
+      lines += fmt::format("{:<16} {} ({})\n", m.name, m.description, m.source);
   } else if (kind == "surfaces") {
     for (const SurfaceInfo& s : surface_infos()) lines += fmt::format("{:<16} {}\n", s.name, s.description);
   } else if (kind == "scenes") {

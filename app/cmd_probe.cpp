@@ -76,12 +76,14 @@ Values probe_pixel(const Options& options, const RenderScene& scene, const Camer
   Frame frame;
   renderer.render(camera, options.time_s, frame);
 
-  const std::size_t index = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(frame.width_px) +
-                            static_cast<std::size_t>(pixel.x);
+  const std::size_t index =
+      static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(frame.width_px) + static_cast<std::size_t>(pixel.x);
   Values values;
-  values.add("pixel", std::vector<std::uint32_t>{static_cast<std::uint32_t>(pixel.x), static_cast<std::uint32_t>(pixel.y)});
+  values.add("pixel",
+             std::vector<std::uint32_t>{static_cast<std::uint32_t>(pixel.x), static_cast<std::uint32_t>(pixel.y)});
   for (const AovInfo& info : aov_infos()) {
-    const auto image = std::find_if(frame.aovs.begin(), frame.aovs.end(), [&](const auto& i) { return i.aov == info.aov; });
+    const auto image =
+        std::find_if(frame.aovs.begin(), frame.aovs.end(), [&](const auto& i) { return i.aov == info.aov; });
     if (image == frame.aovs.end()) continue;
     const auto channels = static_cast<std::size_t>(image->channels);
     if (info.is_uint) {

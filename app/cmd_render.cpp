@@ -99,12 +99,13 @@ class Render {
     if (options_.repeat > 1) first_.srgb8 = frame.srgb8;
     if (frame.subdivision_capped > 0 && !options_.quiet) {
       warn(options_.scene.name, fmt::format("{} triangles reached the subdivision's level cap: they may be off by more "
-                                            "than a quarter of a pixel", frame.subdivision_capped));
+                                            "than a quarter of a pixel",
+                                            frame.subdivision_capped));
     }
   }
 
-  // Warm-up frames, then the counted ones, each from a new camera and at a new time; frame 0 is then drawn again for the
-  // outputs, so that no digest or layer is in the times. The bytes are the same by contract.
+  // Warm-up frames, then the counted ones, each from a new camera and at a new time; frame 0 is then drawn again for
+  // the outputs, so that no digest or layer is in the times. The bytes are the same by contract.
   void time_frames() {
     Frame frame;
     {
@@ -176,8 +177,7 @@ class Render {
   // The report and the last picture take their places together, once both are on the disk.
   void finish() {
     if (options_.json) {
-      const std::string text =
-          json_text(render_report(options_, loaded_, *camera_, threads_, first_, times_));
+      const std::string text = json_text(render_report(options_, loaded_, *camera_, threads_, first_, times_));
       if (*options_.json == "-") {
         write_stdout(text);
       } else {

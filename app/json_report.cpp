@@ -54,7 +54,8 @@ void add_water_keys(const RenderScene& scene, Json& settings) {
   for (const auto& item : bodies.front().items()) {
     const std::string key = item.key();
     const std::string name = key == "size" ? "water_size" : key;  // `size` is the frame's
-    const bool same = std::all_of(bodies.begin(), bodies.end(), [&](const Json& b) { return b.at(key) == item.value(); });
+    const bool same =
+        std::all_of(bodies.begin(), bodies.end(), [&](const Json& b) { return b.at(key) == item.value(); });
     if (same) {
       settings[name] = item.value();
       continue;
@@ -149,7 +150,8 @@ Json settings_json(const Options& options, const RenderScene& scene, const Place
   s["camera"] = camera.name;
   s["time"] = options.time_s;
   s["step"] = options.step_s;
-  s["frames"] = options.frames ? Json(fmt::format("{}:{}", options.frames->first, options.frames->last)) : Json(nullptr);
+  s["frames"] =
+      options.frames ? Json(fmt::format("{}:{}", options.frames->first, options.frames->last)) : Json(nullptr);
   s["warmup"] = options.warmup;
   s["repeat"] = options.repeat;
   s["threads"] = threads;

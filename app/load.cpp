@@ -78,7 +78,8 @@ std::uint64_t count_triangles(const Scene& scene) {
   std::uint64_t count = 0;
   for (const Node& node : scene.nodes) {
     if (node.mesh == kNoIndex) continue;
-    for (const MeshPrimitive& p : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) count += p.indices.size() / 3;
+    for (const MeshPrimitive& p : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+      count += p.indices.size() / 3;
   }
   return count;
 }
@@ -90,8 +91,8 @@ Scene read_scene(const std::string& name, std::optional<std::uint64_t> triangles
     return scene;
   }
   if (!has_ending(name, ".gltf") && !has_ending(name, ".glb")) {
-    throw UsageError(fmt::format("scene '{}': unknown; expected a .gltf or .glb file, or one of: {}", name,
-                                 join(built_in_names())));
+    throw UsageError(
+        fmt::format("scene '{}': unknown; expected a .gltf or .glb file, or one of: {}", name, join(built_in_names())));
   }
   if (triangles) throw UsageError(fmt::format("--triangles: {} is a file; expected a built-in scene", name));
   return load_gltf(name);
@@ -134,8 +135,8 @@ const PlacedCamera& pick_camera(const RenderScene& scene, const std::optional<st
   if (!camera->empty() && camera->find_first_not_of(kDigits) == std::string::npos) {
     return scene.cameras[static_cast<std::size_t>(read_integer("--camera", *camera, 0, last))];
   }
-  throw UsageError(fmt::format("--camera '{}': unknown; expected an index from 0 to {}, or one of: {}", *camera, last,
-                               join(names)));
+  throw UsageError(
+      fmt::format("--camera '{}': unknown; expected an index from 0 to {}, or one of: {}", *camera, last, join(names)));
 }
 
 }  // namespace shoal::app

@@ -39,8 +39,10 @@ void add_scene_options(CLI::App& command, RawOptions& raw) {
 }
 
 void add_set_option(CLI::App& command, RawOptions& raw) {
-  command.add_option("--set", raw.set, "a method's option (METHOD.KEY names whose), or a water key: size=X,Z depth ior "
-                     "absorption=R,G,B surface geometry; again for more")
+  command
+      .add_option("--set", raw.set,
+                  "a method's option (METHOD.KEY names whose), or a water key: size=X,Z depth ior "
+                  "absorption=R,G,B surface geometry; again for more")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->allow_extra_args(false)
@@ -72,7 +74,8 @@ void add_frame_options(CLI::App& command, RawOptions& raw) {
   add("--reflections", raw.reflections, "environment|scene", "environment");
   add("--exposure", raw.exposure, "STOPS", "of the PNG; 0");
   add("--tonemap", raw.tonemap, "none|aces", "of the PNG; none");
-  add("--background", raw.background, "R,G,B|environment", "what every ray sees that leaves the scene: linear light, or "
+  add("--background", raw.background, "R,G,B|environment",
+      "what every ray sees that leaves the scene: linear light, or "
       "the scene's environment (the default sky where it has none); the scene's");
   add("--aov", raw.aov, "A,B", "more layers in an EXR: depth, normal, hit.position, id.triangle, ...");
   add("--json", raw.json, "FILE", "the report; - is standard output, after the digests");
@@ -84,7 +87,8 @@ void add_diff_options(CLI::App& command, DiffArguments& diff) {
   command.add_option("A", diff.a, "a PNG or an EXR")->required()->type_name("");
   command.add_option("B", diff.b, "another of the same kind and size")->required()->type_name("");
   add_text_option(command, "--json", diff.json, "the report; - is standard output, instead of the text", "FILE");
-  add_text_option(command, "--mask", diff.mask, "only pixels that are not black in it (not 0 in its water.mask)", "FILE");
+  add_text_option(command, "--mask", diff.mask, "only pixels that are not black in it (not 0 in its water.mask)",
+                  "FILE");
   add_text_option(command, "--map", diff.map, "write the absolute differences", "FILE.png|FILE.exr");
   add_text_option(command, "--ppd", diff.ppd, "pixels a degree, for FLIP; 67.02", "N");
   command.add_flag("--quiet", diff.quiet, "no text, only the exit code");
@@ -103,8 +107,10 @@ bool has_command(CLI::App& root, const std::string& name) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App root("Shoal: water refraction, rasterized to the bit.\n"
-                "Exit codes: 0 done, 1 input or machine failed, 2 wrong usage; diff: 0 equal, 3 different.", "shoal");
+  CLI::App root(
+      "Shoal: water refraction, rasterized to the bit.\n"
+      "Exit codes: 0 done, 1 input or machine failed, 2 wrong usage; diff: 0 equal, 3 different.",
+      "shoal");
   root.set_version_flag("--version", "shoal " SHOAL_VERSION);
   RawOptions raw;
   DiffArguments diff;
@@ -113,7 +119,8 @@ int run(int argc, char** argv) {
 
   CLI::App& render = *root.add_subcommand("render", "one frame, or a run of frames, to PNG or EXR");
   add_scene_options(render, raw);
-  add_text_option(render, "-o", raw.output, "the picture; may be left out with --json or --digest", "FILE.png|FILE.exr");
+  add_text_option(render, "-o", raw.output, "the picture; may be left out with --json or --digest",
+                  "FILE.png|FILE.exr");
   add_frame_options(render, raw);
 
   CLI::App& diff_command = *root.add_subcommand("diff", "two pictures: equal, or the first difference");
@@ -139,7 +146,8 @@ int run(int argc, char** argv) {
 
   if (argc < 2) return report(std::string("no command; expected one of: ") + kCommands, kExitUsage);
   const std::string first = argv[1];
-  if (first == "compare") return report(std::string("compare: has not come yet; expected one of: ") + kCommands, kExitUsage);
+  if (first == "compare")
+    return report(std::string("compare: has not come yet; expected one of: ") + kCommands, kExitUsage);
   if (first.rfind("-", 0) != 0 && !has_command(root, first)) {
     return report("command '" + first + "': unknown; expected one of: " + kCommands, kExitUsage);
   }

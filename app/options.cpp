@@ -14,17 +14,17 @@ using Names = std::vector<std::string>;
 
 constexpr int kMaxSpp = 256;
 constexpr int kMaxThreads = 1024;
-constexpr int kMaxRuns = 1'000'000;       // warm-up and repeated frames
+constexpr int kMaxRuns = 1'000'000;  // warm-up and repeated frames
 constexpr double kMaxTime_s = 1e6;
 constexpr double kMaxExposureStops = 64;
-constexpr double kMaxRadiance = 1e6;      // of a background
-constexpr double kMaxLength_m = 1e6;      // of a body of water
-constexpr double kMaxAbsorption = 1e4;    // 1/m
+constexpr double kMaxRadiance = 1e6;    // of a background
+constexpr double kMaxLength_m = 1e6;    // of a body of water
+constexpr double kMaxAbsorption = 1e4;  // 1/m
 constexpr std::int64_t kMaxTriangles = 50'000'000;
 
 // What is planned, named in the design, and not built yet: refused by name, apart from what does not exist at all.
-const Names kComingMethods = {"liu-2020",  "steel-2024",     "narrow-only", "screen-space", "distort",
-                              "distance-field", "block-grid", "ray-traced"};
+const Names kComingMethods = {"liu-2020", "steel-2024",     "narrow-only", "screen-space",
+                              "distort",  "distance-field", "block-grid",  "ray-traced"};
 const Names kComingSurfaces = {"perlin", "ripples", "gradient-waves", "gerstner", "spectrum"};
 const Names kComingWaterKeys = {"slope", "amplitude", "wavelength", "octaves", "speed", "seed"};
 const Names kWaterKeys = {"size", "depth", "ior", "absorption", "surface", "geometry"};
@@ -78,7 +78,8 @@ bool set_water_key(WaterOverrides& water, const std::string& key, const std::str
   } else if (key == "ior") {
     const float ior = read_float(option, value, -1e6, 1e6);
     // Compared in float, so that one third as a float is in.
-    if (!(ior >= 1.0f / 3.0f && ior <= 3.0f)) throw UsageError(option + " '" + value + "': out of range; expected 1/3 to 3");
+    if (!(ior >= 1.0f / 3.0f && ior <= 3.0f))
+      throw UsageError(option + " '" + value + "': out of range; expected 1/3 to 3");
     water.ior = ior;
   } else if (key == "absorption") {
     water.absorption_per_m = read_triple(option, value, 0.0, kMaxAbsorption);
@@ -90,7 +91,8 @@ bool set_water_key(WaterOverrides& water, const std::string& key, const std::str
     read_choice(option, value, {"normals"}, {"displaced"});
     water.geometry = WaterGeometry::kNormals;
   } else if (contains(kComingWaterKeys, key)) {
-    throw UsageError(fmt::format("--set '{}': has not come yet, only waves have it; expected {}", key, join(kWaterKeys)));
+    throw UsageError(
+        fmt::format("--set '{}': has not come yet, only waves have it; expected {}", key, join(kWaterKeys)));
   } else {
     return false;
   }
@@ -182,7 +184,8 @@ int read_tile(const std::string& text) {
 int read_shadow_map(const std::string& text) {
   const std::int64_t size = read_integer("--shadow-map", text, 256, 8192);
   if ((size & (size - 1)) != 0) {
-    throw UsageError(fmt::format("--shadow-map '{}': not a power of two; expected 256, 512, 1024, 2048, 4096 or 8192", text));
+    throw UsageError(
+        fmt::format("--shadow-map '{}': not a power of two; expected 256, 512, 1024, 2048, 4096 or 8192", text));
   }
   return static_cast<int>(size);
 }
@@ -220,13 +223,16 @@ void read_frame_settings(const RawOptions& raw, FrameSettings& frame) {
     not_yet("--anisotropy", *raw.anisotropy, {"1"});
   }
   if (raw.shadows) {
-    frame.shadows = read_choice("--shadows", *raw.shadows, {"off", "map"}, {"rays"}) == 0 ? Shadows::kOff : Shadows::kMap;
+    frame.shadows =
+        read_choice("--shadows", *raw.shadows, {"off", "map"}, {"rays"}) == 0 ? Shadows::kOff : Shadows::kMap;
   }
   if (raw.shadow_map) frame.shadow_map_px = read_shadow_map(*raw.shadow_map);
   if (raw.reflections) read_choice("--reflections", *raw.reflections, {"environment"}, {"scene"});
-  if (raw.exposure) frame.exposure_stops = read_float("--exposure", *raw.exposure, -kMaxExposureStops, kMaxExposureStops);
+  if (raw.exposure)
+    frame.exposure_stops = read_float("--exposure", *raw.exposure, -kMaxExposureStops, kMaxExposureStops);
   if (raw.tonemap) {
-    frame.tone_map = read_choice("--tonemap", *raw.tonemap, {"none", "aces"}, {}) == 0 ? ToneMap::kNone : ToneMap::kAces;
+    frame.tone_map =
+        read_choice("--tonemap", *raw.tonemap, {"none", "aces"}, {}) == 0 ? ToneMap::kNone : ToneMap::kAces;
   }
 }
 
@@ -237,8 +243,9 @@ void read_run(const RawOptions& raw, Options& options) {
   if (raw.warmup) options.warmup = read_count("--warmup", *raw.warmup, 0, kMaxRuns);
   if (raw.repeat) options.repeat = read_count("--repeat", *raw.repeat, 1, kMaxRuns);
   if (options.frames && options.repeat > 1) {
-    throw UsageError("--frames and --repeat exclude each other: one writes a run of frames, the other times the first one;"
-                     " expected one of them");
+    throw UsageError(
+        "--frames and --repeat exclude each other: one writes a run of frames, the other times the first one;"
+        " expected one of them");
   }
 }
 
@@ -273,9 +280,7 @@ void read_scene(const RawOptions& raw, SceneOptions& scene) {
 
 }  // namespace
 
-bool WaterOverrides::any() const {
-  return size_m || depth_m || ior || absorption_per_m || surface || geometry;
-}
+bool WaterOverrides::any() const { return size_m || depth_m || ior || absorption_per_m || surface || geometry; }
 
 Options read_options(const RawOptions& raw) {
   if (raw.methods) throw UsageError("--methods: belongs to shoal compare; expected --method NAME");

@@ -164,8 +164,8 @@ void write_stdout(std::string_view text) {
     const ssize_t written = write(STDOUT_FILENO, text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) {
-      throw Error(fmt::format("standard output: cannot be written ({}); expected somewhere to write to",
-                              std::strerror(errno)));
+      throw Error(
+          fmt::format("standard output: cannot be written ({}); expected somewhere to write to", std::strerror(errno)));
     }
     text.remove_prefix(static_cast<std::size_t>(written));
   }

@@ -34,7 +34,8 @@ class OutputFile {
   std::FILE* stream_ = nullptr;
 };
 
-// Throws Error where `path` could not be written now, and leaves nothing: a long render finds that out before it starts.
+// Throws Error where `path` could not be written now, and leaves nothing: a long render finds that out before it
+// starts.
 void check_writable(const std::string& path);
 
 // Writes a whole text to a file, or to standard output where `path` is "-".

@@ -17,8 +17,8 @@
 namespace shoal::app {
 namespace {
 
-constexpr int kBandRows = 64;          // rows that are interleaved at a time
-constexpr int kMaxSize = 16384;        // as --size
+constexpr int kBandRows = 64;    // rows that are interleaved at a time
+constexpr int kMaxSize = 16384;  // as --size
 constexpr int kMaxChannels = 1024;
 
 [[noreturn]] void fail(const std::string& path, const std::string& what, const std::string& expected) {
@@ -62,7 +62,8 @@ class Writer {
 
  private:
   void check(bool ok) const {
-    if (proxy_.error()) fail(path_, fmt::format("cannot be written ({})", std::strerror(proxy_.error())), "a writable file");
+    if (proxy_.error())
+      fail(path_, fmt::format("cannot be written ({})", std::strerror(proxy_.error())), "a writable file");
     if (!ok) fail(path_, "cannot be written (" + output_->geterror() + ")", "a writable file");
   }
 
@@ -93,7 +94,8 @@ struct Source {
 };
 
 // Every sample is four bytes, so pixels interleave as plain words.
-void write_sources(std::FILE* file, const std::string& path, int width, int height, const std::vector<Source>& sources) {
+void write_sources(std::FILE* file, const std::string& path, int width, int height,
+                   const std::vector<Source>& sources) {
   OIIO::ImageSpec spec(width, height, static_cast<int>(sources.size()), OIIO::TypeDesc::FLOAT);
   spec.channelnames.clear();
   for (const Source& source : sources) {
@@ -119,7 +121,8 @@ void write_sources(std::FILE* file, const std::string& path, int width, int heig
 }
 
 void add_aov_sources(const AovImage& image, std::vector<Source>& sources) {
-  const auto info = std::find_if(aov_infos().begin(), aov_infos().end(), [&](const AovInfo& i) { return i.aov == image.aov; });
+  const auto info =
+      std::find_if(aov_infos().begin(), aov_infos().end(), [&](const AovInfo& i) { return i.aov == image.aov; });
   for (int c = 0; c < image.channels; ++c) {
     Source source;
     source.name = info->name;

@@ -39,7 +39,8 @@ void Progress::show() {
   std::string line = fmt::format("\r\033[K{} {}/{}", what_, done_, total_);
   if (done_ > 0) {
     const double spent = std::chrono::duration<double>(Clock::now() - begin_).count();
-    line += fmt::format(", {} left", duration_text(spent / static_cast<double>(done_) * static_cast<double>(total_ - done_)));
+    line += fmt::format(", {} left",
+                        duration_text(spent / static_cast<double>(done_) * static_cast<double>(total_ - done_)));
   }
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);

@@ -22,7 +22,8 @@ double read_number(std::string_view option, std::string_view text, double low, d
 // As read_number, rounded to float.
 float read_float(std::string_view option, std::string_view text, double low, double high);
 // Finite numbers with commas between; brackets round all of them are allowed, as in JSON.
-std::vector<float> read_floats(std::string_view option, std::string_view text, std::size_t count, double low, double high);
+std::vector<float> read_floats(std::string_view option, std::string_view text, std::size_t count, double low,
+                               double high);
 Vec3f read_triple(std::string_view option, std::string_view text, double low, double high);
 
 // "1280x720".

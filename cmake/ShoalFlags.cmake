@@ -12,9 +12,7 @@ add_library(shoal_flags INTERFACE)
 target_compile_features(shoal_flags INTERFACE cxx_std_20)
 target_compile_definitions(shoal_flags INTERFACE SHOAL_VERSION="${PROJECT_VERSION}")
 target_compile_options(shoal_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wconversion
-  # GCC 12's plain -Wshadow takes an enum class's kNone for a shadow of a global kNone.
-  $<IF:$<CXX_COMPILER_ID:GNU>,-Wshadow=local,-Wshadow>
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion
   # No fused multiply-add anywhere: GCC 12 fuses even written-out intrinsics by default.
   -ffp-contract=off
   # Signed overflow never reaches a pixel, but must not become undefined behaviour either.

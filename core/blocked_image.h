@@ -10,9 +10,9 @@
 
 namespace shoal {
 
-inline constexpr int kBlockSize = 4;       // pixels a side
+inline constexpr int kBlockSize = 4;  // pixels a side
 inline constexpr int kBlockPixels = 16;
-inline constexpr int kRegionSize = 64;     // pixels a side: the fixed grid that every image is padded to
+inline constexpr int kRegionSize = 64;  // pixels a side: the fixed grid that every image is padded to
 
 // Memory from calloc-like pages: big buffers are zero at first and cost nothing until touched.
 template <class T>
@@ -54,7 +54,8 @@ struct FrameGrid {
   std::size_t pixel_slots() const { return block_count() * kBlockPixels; }
   // Index of a block's first pixel slot.
   std::size_t block_offset(int block_x, int block_y) const {
-    return (static_cast<std::size_t>(block_y) * static_cast<std::size_t>(blocks_x) + static_cast<std::size_t>(block_x)) *
+    return (static_cast<std::size_t>(block_y) * static_cast<std::size_t>(blocks_x) +
+            static_cast<std::size_t>(block_x)) *
            kBlockPixels;
   }
   std::size_t slot(int x_px, int y_px) const {

@@ -6,7 +6,8 @@
 
 namespace shoal {
 
-// Bad input or a failing machine: one line, "FILE: what is wrong; what was expected". The command prints it and exits 1.
+// Bad input or a failing machine: one line, "FILE: what is wrong; what was expected". The command prints it and
+// exits 1.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -17,9 +17,9 @@ class ThreadPool {
 
   int threads() const { return threads_; }
 
-  // Calls task(index, thread) once for each index in [0, count), on any thread (0 to threads() - 1, the caller is 0), in
-  // any order, each on its own; returns when all are done. The first exception thrown by a task is thrown again here.
-  // Not reentrant. The floating-point mode is Shoal's inside of the tasks (core/float_mode.h).
+  // Calls task(index, thread) once for each index in [0, count), on any thread (0 to threads() - 1, the caller is 0),
+  // in any order, each on its own; returns when all are done. The first exception thrown by a task is thrown again
+  // here. Not reentrant. The floating-point mode is Shoal's inside of the tasks (core/float_mode.h).
   template <class Task>
   void for_each(std::size_t count, Task&& task) {
     using Callable = std::remove_reference_t<Task>;

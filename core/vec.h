@@ -32,30 +32,52 @@ struct Mat4 {
 inline constexpr Mat4 kIdentity4 = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
 template <class F>
-SHOAL_INLINE Vec2<F> operator+(Vec2<F> a, Vec2<F> b) { return {a.x + b.x, a.y + b.y}; }
+SHOAL_INLINE Vec2<F> operator+(Vec2<F> a, Vec2<F> b) {
+  return {a.x + b.x, a.y + b.y};
+}
 template <class F>
-SHOAL_INLINE Vec2<F> operator-(Vec2<F> a, Vec2<F> b) { return {a.x - b.x, a.y - b.y}; }
+SHOAL_INLINE Vec2<F> operator-(Vec2<F> a, Vec2<F> b) {
+  return {a.x - b.x, a.y - b.y};
+}
 template <class F>
-SHOAL_INLINE Vec2<F> operator*(Vec2<F> a, F s) { return {a.x * s, a.y * s}; }
+SHOAL_INLINE Vec2<F> operator*(Vec2<F> a, F s) {
+  return {a.x * s, a.y * s};
+}
 
 template <class F>
-SHOAL_INLINE Vec3<F> operator+(Vec3<F> a, Vec3<F> b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+SHOAL_INLINE Vec3<F> operator+(Vec3<F> a, Vec3<F> b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
 template <class F>
-SHOAL_INLINE Vec3<F> operator-(Vec3<F> a, Vec3<F> b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+SHOAL_INLINE Vec3<F> operator-(Vec3<F> a, Vec3<F> b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 template <class F>
-SHOAL_INLINE Vec3<F> operator-(Vec3<F> a) { return {-a.x, -a.y, -a.z}; }
+SHOAL_INLINE Vec3<F> operator-(Vec3<F> a) {
+  return {-a.x, -a.y, -a.z};
+}
 // Component by component (colours).
 template <class F>
-SHOAL_INLINE Vec3<F> operator*(Vec3<F> a, Vec3<F> b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+SHOAL_INLINE Vec3<F> operator*(Vec3<F> a, Vec3<F> b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
 template <class F>
-SHOAL_INLINE Vec3<F> operator*(Vec3<F> a, F s) { return {a.x * s, a.y * s, a.z * s}; }
+SHOAL_INLINE Vec3<F> operator*(Vec3<F> a, F s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
 template <class F>
-SHOAL_INLINE Vec3<F> operator*(F s, Vec3<F> a) { return a * s; }
+SHOAL_INLINE Vec3<F> operator*(F s, Vec3<F> a) {
+  return a * s;
+}
 template <class F>
-SHOAL_INLINE Vec3<F> operator/(Vec3<F> a, F s) { return {a.x / s, a.y / s, a.z / s}; }
+SHOAL_INLINE Vec3<F> operator/(Vec3<F> a, F s) {
+  return {a.x / s, a.y / s, a.z / s};
+}
 // The fixed order of these sums is part of the contract.
 template <class F>
-SHOAL_INLINE F dot(Vec3<F> a, Vec3<F> b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
+SHOAL_INLINE F dot(Vec3<F> a, Vec3<F> b) {
+  return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
 template <class F>
 SHOAL_INLINE Vec3<F> cross(Vec3<F> a, Vec3<F> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -63,9 +85,13 @@ SHOAL_INLINE Vec3<F> cross(Vec3<F> a, Vec3<F> b) {
 
 // A scalar vector in every lane.
 template <class F>
-SHOAL_INLINE Vec3<F> broadcast(Vec3f v) { return {F(v.x), F(v.y), F(v.z)}; }
+SHOAL_INLINE Vec3<F> broadcast(Vec3f v) {
+  return {F(v.x), F(v.y), F(v.z)};
+}
 template <class F>
-SHOAL_INLINE Vec2<F> broadcast(Vec2f v) { return {F(v.x), F(v.y)}; }
+SHOAL_INLINE Vec2<F> broadcast(Vec2f v) {
+  return {F(v.x), F(v.y)};
+}
 
 template <class F>
 SHOAL_INLINE Vec3<F> transform_point(const Mat4& t, Vec3<F> p) {

@@ -7,7 +7,9 @@
 namespace shoal::inline SHOAL_ISA_NS {
 
 template <class F>
-SHOAL_INLINE F length(Vec3<F> a) { return sqrt(dot(a, a)); }
+SHOAL_INLINE F length(Vec3<F> a) {
+  return sqrt(dot(a, a));
+}
 // The zero vector stays zero.
 template <class F>
 SHOAL_INLINE Vec3<F> normalize(Vec3<F> a) {
@@ -23,10 +25,16 @@ SHOAL_INLINE Vec2<F> select(MaskOf<F> m, Vec2<F> a, Vec2<F> b) {
   return {select(m, a.x, b.x), select(m, a.y, b.y)};
 }
 template <class F>
-SHOAL_INLINE Vec3<F> lerp(Vec3<F> a, Vec3<F> b, F t) { return a + (b - a) * t; }
+SHOAL_INLINE Vec3<F> lerp(Vec3<F> a, Vec3<F> b, F t) {
+  return a + (b - a) * t;
+}
 template <class F>
-SHOAL_INLINE Vec3<F> min(Vec3<F> a, Vec3<F> b) { return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)}; }
+SHOAL_INLINE Vec3<F> min(Vec3<F> a, Vec3<F> b) {
+  return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
+}
 template <class F>
-SHOAL_INLINE Vec3<F> max(Vec3<F> a, Vec3<F> b) { return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)}; }
+SHOAL_INLINE Vec3<F> max(Vec3<F> a, Vec3<F> b) {
+  return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
+}
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -55,7 +55,7 @@ BinGrid make_bin_grid(int width_px, int height_px, int tile_px);
 struct BinItem {
   PodVector<TrianglePacket> packets;
   PodVector<LargeTriangle> large;
-  PodVector<BinEntry> entries;          // as found, then sorted by tile, stable
+  PodVector<BinEntry> entries;  // as found, then sorted by tile, stable
   PodVector<BinEntry> sorted;
   PodVector<std::uint32_t> tile_first;  // entries of tile t: sorted[tile_first[t] .. tile_first[t + 1])
   std::uint64_t triangles_in = 0, triangles_out = 0, subdivision_capped = 0;

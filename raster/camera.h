@@ -25,8 +25,8 @@ struct Camera {
 struct View {
   Camera camera;
   int width_px = 0, height_px = 0;
-  // Screen: x_px = centre_px.x + dot(row_x, p - C) / w, y_px = centre_px.y + dot(row_y, p - C) / w, w = dot(row_w, p - C)
-  // (perspective) or 1 (orthographic). row_y points down the screen.
+  // Screen: x_px = centre_px.x + dot(row_x, p - C) / w, y_px = centre_px.y + dot(row_y, p - C) / w, w = dot(row_w, p -
+  // C) (perspective) or 1 (orthographic). row_y points down the screen.
   Vec3f row_x, row_y, row_w;
   Vec2f centre_px;  // includes the sample's offset, so that every stage sees one sample a pixel
   // Rays: perspective D = forward + ray_dx * (x - centre.x) + ray_dy * (y - centre.y), O = C; then t is the view depth.

@@ -1,8 +1,8 @@
 // Clipping: a triangle against a plane in the world (before the vertex program), and against near plane and guard band
 // in clip space (after it).
 //
-// Watertight: a new vertex on an edge is computed from the edge's inner and outer end alone, so two triangles that share
-// the edge get the same bits. Plane order is fixed.
+// Watertight: a new vertex on an edge is computed from the edge's inner and outer end alone, so two triangles that
+// share the edge get the same bits. Plane order is fixed.
 //
 // Source  Sutherland, Hodgman 1974.
 #pragma once

@@ -48,7 +48,8 @@ class FrontEnd {
   SHOAL_INLINE FrontEnd(const GeometryView& geometry, const Program& program, const PassSettings& pass, BinItem& item)
       : geometry_(geometry), program_(program), sink_(pass, item), tessellator_(program, sink_) {}
 
-  // Chunks [first, last) of the scene, in order. id_override replaces the triangle ids (a water outline's), or is kNoId.
+  // Chunks [first, last) of the scene, in order. id_override replaces the triangle ids (a water outline's), or is
+  // kNoId.
   void run(std::uint32_t first, std::uint32_t last, std::int32_t id_override) {
     sink_.item().clear();
     for (std::uint32_t c = first; c < last; ++c) {
@@ -85,7 +86,8 @@ class FrontEnd {
     ChunkVertices v;
     std::uint64_t needs_clip = 0;
     for (int i = 0; i < chunk.vertex_count; i += 16) {
-      const ClipVertex<WideF> clip = program_.vertex(Vec3<WideF>{WideF::load(wx + i), WideF::load(wy + i), WideF::load(wz + i)});
+      const ClipVertex<WideF> clip =
+          program_.vertex(Vec3<WideF>{WideF::load(wx + i), WideF::load(wy + i), WideF::load(wz + i)});
       needs_clip |= std::uint64_t(~to_bits(inside_guard(clip)) & 0xFFFFu) << i;
       const SnappedLanes s = snap(clip, sink_.pass().centre_px);
       s.x.store(v.x + i), s.y.store(v.y + i), s.depth.store(v.depth + i);

@@ -44,16 +44,17 @@ struct Geometry {
   // front end, in records for the pixel stages.
   std::vector<float> x_world, y_world, z_world;
   std::vector<VertexRecord> vertices;
-  std::vector<Vec4f> colors;  // a vertex's COLOR_0 (linear RGBA); empty when nothing has any
-  std::vector<Vec2f> uvs1;    // the second set of texture coordinates; empty when nothing has any
+  std::vector<Vec4f> colors;    // a vertex's COLOR_0 (linear RGBA); empty when nothing has any
+  std::vector<Vec2f> uvs1;      // the second set of texture coordinates; empty when nothing has any
   std::vector<Vec4f> tangents;  // world, unit along +u, w the bitangent's sign; empty when nothing has any
 
-  // A chunk's triangles by chunk-local vertex number, one array a corner, sixteen-padded a chunk (padding is degenerate).
+  // A chunk's triangles by chunk-local vertex number, one array a corner, sixteen-padded a chunk (padding is
+  // degenerate).
   std::vector<std::uint8_t> corner0, corner1, corner2;
 
   // By global triangle id: where the pixel stages find it.
   struct TriangleRecord {
-    std::uint32_t vertex[3];   // into vertices
+    std::uint32_t vertex[3];  // into vertices
     std::uint32_t material;
   };
   std::vector<TriangleRecord> triangles;
@@ -65,10 +66,10 @@ struct Geometry {
 // An indexed mesh part to append, already in world space.
 struct MeshView {
   const Vec3f* positions_world = nullptr;
-  const Vec3f* normals_world = nullptr;  // unit
-  const Vec2f* uvs = nullptr;            // may be null
-  const Vec4f* colors = nullptr;         // may be null
-  const Vec2f* uvs1 = nullptr;           // may be null
+  const Vec3f* normals_world = nullptr;   // unit
+  const Vec2f* uvs = nullptr;             // may be null
+  const Vec4f* colors = nullptr;          // may be null
+  const Vec2f* uvs1 = nullptr;            // may be null
   const Vec4f* tangents_world = nullptr;  // may be null; xyz unit along +u, w 1 or -1: b = cross(n, t) w
   const std::uint32_t* indices = nullptr;
   std::uint32_t vertex_count = 0, index_count = 0;

@@ -135,7 +135,9 @@ SHOAL_INLINE F punctual_falloff(const PunctualLight& light, Vec3<F> position_wor
 // A sun that nothing is in the way of.
 struct OpenSun {
   template <class F>
-  SHOAL_INLINE Vec3<F> reach(Vec3<F> irradiance, MaskOf<F>) const { return irradiance; }
+  SHOAL_INLINE Vec3<F> reach(Vec3<F> irradiance, MaskOf<F>) const {
+    return irradiance;
+  }
 };
 
 // Radiance of surface points towards the viewer.

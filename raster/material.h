@@ -22,7 +22,7 @@ struct MaterialMap {
 };
 
 struct Material {
-  Vec4f base_color{1, 1, 1, 1};  // linear
+  Vec4f base_color{1, 1, 1, 1};                  // linear
   std::int32_t base_color_texture = kNoTexture;  // index into Materials::textures
   Sampler base_color_sampler;
   UvMap base_color_uv;

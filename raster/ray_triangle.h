@@ -19,8 +19,8 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 template <class F>
 struct TriangleHit {
-  F t;             // hit = origin + direction t, in units of the direction's length; negative behind the origin
-  F u, v;          // hit = p0 + e1 u + e2 v; not clamped to the triangle
+  F t;              // hit = origin + direction t, in units of the direction's length; negative behind the origin
+  F u, v;           // hit = p0 + e1 u + e2 v; not clamped to the triangle
   MaskOf<F> valid;  // the ray is not parallel to the plane (then t, u, v are 0), and t, u, v are finite
 };
 
@@ -83,12 +83,12 @@ SHOAL_INLINE TriangleHitDerivatives<F> hit_derivatives(Ray<F> ray, RayDifferenti
   const F det_dx = dot(e1, px), det_dy = dot(e1, py);
   const F u_dx = dot(differential.origin_dx, p) + dot(s, px) - hit.u * det_dx;
   const F u_dy = dot(differential.origin_dy, p) + dot(s, py) - hit.u * det_dy;
-  const F v_dx = dot(differential.direction_dx, q) + dot(ray.direction_world, cross(differential.origin_dx, e1)) -
-                 hit.v * det_dx;
-  const F v_dy = dot(differential.direction_dy, q) + dot(ray.direction_world, cross(differential.origin_dy, e1)) -
-                 hit.v * det_dy;
-  return {select(hit.valid, u_dx * inv, zero), select(hit.valid, u_dy * inv, zero),
-          select(hit.valid, v_dx * inv, zero), select(hit.valid, v_dy * inv, zero)};
+  const F v_dx =
+      dot(differential.direction_dx, q) + dot(ray.direction_world, cross(differential.origin_dx, e1)) - hit.v * det_dx;
+  const F v_dy =
+      dot(differential.direction_dy, q) + dot(ray.direction_world, cross(differential.origin_dy, e1)) - hit.v * det_dy;
+  return {select(hit.valid, u_dx * inv, zero), select(hit.valid, u_dy * inv, zero), select(hit.valid, v_dx * inv, zero),
+          select(hit.valid, v_dy * inv, zero)};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -20,10 +20,10 @@ namespace shoal::inline SHOAL_ISA_NS {
 template <class F>
 struct PixelAttributes {
   Vec3<F> position_world;
-  Vec3<F> normal_world;   // unit, turned to the viewer where the triangle shows its back
-  F t;                    // of the hit along the ray, in its direction's lengths
+  Vec3<F> normal_world;  // unit, turned to the viewer where the triangle shows its back
+  F t;                   // of the hit along the ray, in its direction's lengths
   Vec2<F> uv, duv_dx, duv_dy;
-  Vec4<F> color;          // COLOR_0, 1 where there is none
+  Vec4<F> color;  // COLOR_0, 1 where there is none
   IntOf<F> material;
   // Only where the geometry has them (GeometryView):
   Vec2<F> uv1, duv1_dx, duv1_dy;
@@ -46,7 +46,9 @@ SHOAL_INLINE void for_each_distinct(WideI value, WideM active, Body body) {
 }
 
 // The value of the first active lane; at least one is.
-SHOAL_INLINE std::int32_t first_value(WideI value, WideM active) { return extract(value, __builtin_ctz(to_bits(active))); }
+SHOAL_INLINE std::int32_t first_value(WideI value, WideM active) {
+  return extract(value, __builtin_ctz(to_bits(active)));
+}
 
 // Three corners of the triangle of every lane.
 struct TriangleLanes {
@@ -61,15 +63,25 @@ struct TriangleLanes {
 SHOAL_INLINE TriangleLanes fetch_triangle(const GeometryView& g, std::int32_t id) {
   const Geometry::TriangleRecord& t = g.triangles[id];
   const VertexRecord &a = g.vertices[t.vertex[0]], &b = g.vertices[t.vertex[1]], &c = g.vertices[t.vertex[2]];
-  return {broadcast<WideF>(a.position_world), broadcast<WideF>(b.position_world - a.position_world),
+  return {broadcast<WideF>(a.position_world),
+          broadcast<WideF>(b.position_world - a.position_world),
           broadcast<WideF>(c.position_world - a.position_world),
-          broadcast<WideF>(a.normal_world), broadcast<WideF>(b.normal_world), broadcast<WideF>(c.normal_world),
-          broadcast<WideF>(a.uv), broadcast<WideF>(b.uv - a.uv), broadcast<WideF>(c.uv - a.uv),
-          {}, {}, {}, WideI(static_cast<std::int32_t>(t.material))};
+          broadcast<WideF>(a.normal_world),
+          broadcast<WideF>(b.normal_world),
+          broadcast<WideF>(c.normal_world),
+          broadcast<WideF>(a.uv),
+          broadcast<WideF>(b.uv - a.uv),
+          broadcast<WideF>(c.uv - a.uv),
+          {},
+          {},
+          {},
+          WideI(static_cast<std::int32_t>(t.material))};
 }
 SHOAL_INLINE void merge_triangle(TriangleLanes& to, const TriangleLanes& t, WideM lanes) {
-  to.p0 = select<WideF>(lanes, t.p0, to.p0), to.e1 = select<WideF>(lanes, t.e1, to.e1), to.e2 = select<WideF>(lanes, t.e2, to.e2);
-  to.n0 = select<WideF>(lanes, t.n0, to.n0), to.n1 = select<WideF>(lanes, t.n1, to.n1), to.n2 = select<WideF>(lanes, t.n2, to.n2);
+  to.p0 = select<WideF>(lanes, t.p0, to.p0), to.e1 = select<WideF>(lanes, t.e1, to.e1),
+  to.e2 = select<WideF>(lanes, t.e2, to.e2);
+  to.n0 = select<WideF>(lanes, t.n0, to.n0), to.n1 = select<WideF>(lanes, t.n1, to.n1),
+  to.n2 = select<WideF>(lanes, t.n2, to.n2);
   to.uv0 = select<WideF>(lanes, t.uv0, to.uv0);
   to.duv1 = select<WideF>(lanes, t.duv1, to.duv1), to.duv2 = select<WideF>(lanes, t.duv2, to.duv2);
   to.material = select(lanes, t.material, to.material);
@@ -78,7 +90,8 @@ SHOAL_INLINE void merge_colors(const GeometryView& g, std::int32_t id, WideM lan
   const Geometry::TriangleRecord& t = g.triangles[id];
   const Vec4f &a = g.colors[t.vertex[0]], &b = g.colors[t.vertex[1]], &c = g.colors[t.vertex[2]];
   auto channel = [&](WideF& c0, WideF& dc1, WideF& dc2, float fa, float fb, float fc) SHOAL_LAMBDA {
-    c0 = select(lanes, WideF(fa), c0), dc1 = select(lanes, WideF(fb - fa), dc1), dc2 = select(lanes, WideF(fc - fa), dc2);
+    c0 = select(lanes, WideF(fa), c0), dc1 = select(lanes, WideF(fb - fa), dc1),
+    dc2 = select(lanes, WideF(fc - fa), dc2);
   };
   channel(to.c0.x, to.dc1.x, to.dc2.x, a.x, b.x, c.x), channel(to.c0.y, to.dc1.y, to.dc2.y, a.y, b.y, c.y);
   channel(to.c0.z, to.dc1.z, to.dc2.z, a.z, b.z, c.z), channel(to.c0.w, to.dc1.w, to.dc2.w, a.w, b.w, c.w);
@@ -122,7 +135,8 @@ __attribute__((noinline)) inline void resolve_tangent(const GeometryView& g, Wid
   };
   for_each_distinct(id, active, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
     const Geometry::TriangleRecord& t = g.triangles[one];
-    put(lanes, g.tangents[t.vertex[0]], t0), put(lanes, g.tangents[t.vertex[1]], t1), put(lanes, g.tangents[t.vertex[2]], t2);
+    put(lanes, g.tangents[t.vertex[0]], t0), put(lanes, g.tangents[t.vertex[1]], t1),
+        put(lanes, g.tangents[t.vertex[2]], t2);
     sign = select(lanes, WideF(g.tangents[t.vertex[0]].w), sign);
   });
   const Vec3<WideF> tangent = t0 * w + t1 * u + t2 * v;
@@ -135,8 +149,8 @@ __attribute__((noinline)) inline void resolve_tangent(const GeometryView& g, Wid
 //   id            triangle ids; active: which of them are
 // Error  position: as intersect_triangle (raster/ray_triangle.h), then within the triangle.
 __attribute__((noinline)) inline void resolve_attributes(const GeometryView& g, const Ray<WideF>& ray,
-                                                         const RayDifferential<WideF>& differential, WideI id, WideM active,
-                                                         PixelAttributes<WideF>& out) {
+                                                         const RayDifferential<WideF>& differential, WideI id,
+                                                         WideM active, PixelAttributes<WideF>& out) {
   const std::int32_t first = first_value(id, active);
   TriangleLanes t = fetch_triangle(g, first);
   if (g.colors != nullptr) merge_colors(g, first, mask_from_bits(0xFFFFu), t);
@@ -176,8 +190,9 @@ SHOAL_INLINE UvPoint<WideF> map_point(const GeometryView& g, const PixelAttribut
 }
 
 // Alpha test of the visibility pass: the covered pixels of a masked triangle that its material keeps.
-__attribute__((noinline)) inline WideM alpha_cut(const GeometryView& g, const Materials& materials, const Ray<WideF>& ray,
-                                                 const RayDifferential<WideF>& differential, std::int32_t id, WideM cover) {
+__attribute__((noinline)) inline WideM alpha_cut(const GeometryView& g, const Materials& materials,
+                                                 const Ray<WideF>& ray, const RayDifferential<WideF>& differential,
+                                                 std::int32_t id, WideM cover) {
   PixelAttributes<WideF> a;
   resolve_attributes(g, ray, differential, WideI(id), cover, a);
   const Material& material = g.materials[g.triangles[id].material];

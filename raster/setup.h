@@ -17,12 +17,12 @@ inline constexpr float kGuardPx = 16384.0f;
 // What a pass wants of its triangles.
 struct PassSettings {
   int width_px = 0, height_px = 0;
-  Vec2f centre_px{0, 0};            // added to x / w and y / w
+  Vec2f centre_px{0, 0};  // added to x / w and y / w
   BinGrid grid;
   // Where the pass may draw, in pixels, inclusive: the frame, or the refracted region's bounds.
   int x_min = 0, y_min = 0, x_max = -1, y_max = -1;
   const std::uint8_t* tile_active = nullptr;  // [tiles] 0: nothing is binned there; null: all are active
-  bool flip_facing = false;         // a mirrored pass sees every triangle from behind
+  bool flip_facing = false;                   // a mirrored pass sees every triangle from behind
 };
 
 }  // namespace shoal
@@ -142,7 +142,8 @@ class TriangleSink {
     const WideI big(0x7FFFFFFF);
     const int x0 = reduce_min(select(valid, tx0, big)), y0 = reduce_min(select(valid, ty0, big));
     const int x1 = reduce_max(select(valid, tx1, WideI(-1))), y1 = reduce_max(select(valid, ty1, WideI(-1)));
-    const std::uint32_t kind = static_cast<std::uint32_t>(staged_masked_ ? BinKind::kSmallMasked : BinKind::kSmall) << 30;
+    const std::uint32_t kind = static_cast<std::uint32_t>(staged_masked_ ? BinKind::kSmallMasked : BinKind::kSmall)
+                               << 30;
     if (x0 == x1 && y0 == y1) {
       add_entry(x0, y0, kind | index, filled);
     } else if ((x1 - x0 + 1) * (y1 - y0 + 1) <= 32) {
@@ -174,8 +175,9 @@ class TriangleSink {
     item_.entries.push() = {tile, kind_and_index, lanes};
   }
 
-  __attribute__((noinline)) void add_large(SnappedLanes a, SnappedLanes b, SnappedLanes c, WideI id, std::uint32_t lanes,
-                                           bool two_sided, bool masked, WideI x0, WideI y0, WideI x1, WideI y1) {
+  __attribute__((noinline)) void add_large(SnappedLanes a, SnappedLanes b, SnappedLanes c, WideI id,
+                                           std::uint32_t lanes, bool two_sided, bool masked, WideI x0, WideI y0,
+                                           WideI x1, WideI y1) {
     for (; lanes != 0; lanes &= lanes - 1) {
       const int lane = __builtin_ctz(lanes);
       LargeTriangle t;
@@ -183,8 +185,8 @@ class TriangleSink {
       t.y[0] = extract(a.y, lane), t.y[1] = extract(b.y, lane), t.y[2] = extract(c.y, lane);
       t.depth[0] = extract(a.depth, lane), t.depth[1] = extract(b.depth, lane), t.depth[2] = extract(c.depth, lane);
       t.id = extract(id, lane);
-      const std::int64_t area = std::int64_t(t.x[2] - t.x[0]) * (t.y[1] - t.y[0]) -
-                                std::int64_t(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]);
+      const std::int64_t area =
+          std::int64_t(t.x[2] - t.x[0]) * (t.y[1] - t.y[0]) - std::int64_t(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]);
       if (area == 0 || (area < 0 && !two_sided)) continue;
       if (area < 0) {
         const std::int32_t x = t.x[1], y = t.y[1];

@@ -52,8 +52,7 @@ SHOAL_INLINE void apply_maps(const GeometryView& g, const Material& material, co
   }
   if (material.normal.texture != kNoTexture && g.tangents != nullptr) {
     const Vec4<WideF> t = texel(material.normal);
-    const Vec3<WideF> n =
-        mapped_normal<WideF>(a.normal_world, a.tangent_world, a.handedness, t, material.normal_scale);
+    const Vec3<WideF> n = mapped_normal<WideF>(a.normal_world, a.tangent_world, a.handedness, t, material.normal_scale);
     // As make_surface turns the normal of a double-sided material.
     const WideM away = dot(a.normal_world, view_direction) < WideF(0.0f);
     s.normal_world = material.double_sided ? select<WideF>(away, -n, n) : n;

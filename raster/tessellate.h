@@ -141,7 +141,8 @@ class Tessellator {
                                             const Vec3<WideF>& c, WideM active) {
     const ClipVertex<WideF> va = program_.vertex(a), vb = program_.vertex(b), vc = program_.vertex(c);
     const WideM inside = inside_guard(va) & inside_guard(vb) & inside_guard(vc);
-    for (std::uint32_t m = to_bits(active & !inside); m != 0; m &= m - 1) draw_clipped(batch[__builtin_ctz(m)], va, vb, vc, __builtin_ctz(m));
+    for (std::uint32_t m = to_bits(active & !inside); m != 0; m &= m - 1)
+      draw_clipped(batch[__builtin_ctz(m)], va, vb, vc, __builtin_ctz(m));
     active = active & inside;
     if (none(active)) return;
     alignas(64) std::int32_t ids[16], flags[16];
@@ -150,9 +151,10 @@ class Tessellator {
     add_by_flags(snap(va, centre), snap(vb, centre), snap(vc, centre), WideI::load(ids), WideI::load(flags), active);
   }
 
-  SHOAL_INLINE void add_by_flags(const SnappedLanes& a, const SnappedLanes& b, const SnappedLanes& c, WideI id, WideI flags,
-                                 WideM active) {
-    const WideM two_sided = (flags & WideI(kFlagTwoSided)) != WideI(0), masked = (flags & WideI(kFlagMasked)) != WideI(0);
+  SHOAL_INLINE void add_by_flags(const SnappedLanes& a, const SnappedLanes& b, const SnappedLanes& c, WideI id,
+                                 WideI flags, WideM active) {
+    const WideM two_sided = (flags & WideI(kFlagTwoSided)) != WideI(0),
+                masked = (flags & WideI(kFlagMasked)) != WideI(0);
     for (int kind = 0; kind < 4; ++kind) {
       const bool two = (kind & 1) != 0, mask = (kind & 2) != 0;
       const WideM lanes = active & (two ? two_sided : !two_sided) & (mask ? masked : !masked);
@@ -164,8 +166,8 @@ class Tessellator {
     return {extract(v.x, l), extract(v.y, l), extract(v.z, l), extract(v.w, l)};
   }
 
-  __attribute__((noinline)) void draw_clipped(const WorldTriangle& t, const ClipVertex<WideF>& va, const ClipVertex<WideF>& vb,
-                                              const ClipVertex<WideF>& vc, int l) {
+  __attribute__((noinline)) void draw_clipped(const WorldTriangle& t, const ClipVertex<WideF>& va,
+                                              const ClipVertex<WideF>& vb, const ClipVertex<WideF>& vc, int l) {
     const ClipVertex<float> a = lane(va, l), b = lane(vb, l), c = lane(vc, l);
     const Polygon<ClipVertex<float>> p = clip_to_guard(a, b, c);
     const Vec2f centre = sink_.pass().centre_px;

@@ -19,8 +19,8 @@ namespace shoal {
 
 struct VisibilityBuffer {
   FrameGrid grid;
-  AlignedArray<float> depth;         // 0 where nothing is
-  AlignedArray<std::int32_t> id;     // raster/bin.h: kNoId, triangles, water bodies
+  AlignedArray<float> depth;      // 0 where nothing is
+  AlignedArray<std::int32_t> id;  // raster/bin.h: kNoId, triangles, water bodies
   void resize(const FrameGrid& g) {
     grid = g;
     depth.resize(g.pixel_slots());
@@ -60,7 +60,8 @@ struct KeepAll {
 template <class AlphaTest>
 class TileRaster {
  public:
-  SHOAL_INLINE TileRaster(VisibilityBuffer& out, const AlphaTest& alpha, int tile_x0, int tile_y0, int tile_x1, int tile_y1)
+  SHOAL_INLINE TileRaster(VisibilityBuffer& out, const AlphaTest& alpha, int tile_x0, int tile_y0, int tile_x1,
+                          int tile_y1)
       : out_(out), alpha_(alpha), x0_(tile_x0), y0_(tile_y0), x1_(tile_x1), y1_(tile_y1) {}
 
   // The tile's padded blocks, emptied.
@@ -83,10 +84,18 @@ class TileRaster {
       const BinEntry& e = item.sorted[i];
       const std::uint32_t index = e.kind_and_index & kBinIndexMask;
       switch (static_cast<BinKind>(e.kind_and_index >> 30)) {
-        case BinKind::kSmall: draw_packet<false>(item.packets[index], e.lanes); break;
-        case BinKind::kSmallMasked: draw_packet<true>(item.packets[index], e.lanes); break;
-        case BinKind::kLarge: draw_large<false>(item.large[index]); break;
-        case BinKind::kLargeMasked: draw_large<true>(item.large[index]); break;
+        case BinKind::kSmall:
+          draw_packet<false>(item.packets[index], e.lanes);
+          break;
+        case BinKind::kSmallMasked:
+          draw_packet<true>(item.packets[index], e.lanes);
+          break;
+        case BinKind::kLarge:
+          draw_large<false>(item.large[index]);
+          break;
+        case BinKind::kLargeMasked:
+          draw_large<true>(item.large[index]);
+          break;
       }
     }
   }
@@ -135,7 +144,8 @@ class TileRaster {
 
     for (; lanes != 0; lanes &= lanes - 1) {
       const int l = __builtin_ctz(lanes);
-      const DepthPlane plane{p.x[0][l], p.y[0][l], p.depth[0][l], s.depth_dx[l], s.depth_dy[l], s.depth_lo[l], s.depth_hi[l]};
+      const DepthPlane plane{p.x[0][l],     p.y[0][l],     p.depth[0][l], s.depth_dx[l],
+                             s.depth_dy[l], s.depth_lo[l], s.depth_hi[l]};
       const WideI ax(s.step_x[0][l]), ay(s.step_y[0][l]), bx(s.step_x[1][l]), by(s.step_y[1][l]);
       const WideI cx(s.step_x[2][l]), cy(s.step_y[2][l]);
       const WideI lane_x = block_x(), lane_y = block_y();
@@ -178,9 +188,12 @@ class TileRaster {
     float* depth_at = out_.depth.data() + at;
     std::int32_t* id_at = out_.id.data() + at;
     // Offsets from the first corner are exact in float: they are below 2^24.
-    const WideF fx = to_float((WideI(block_col * 4 * kSubpixel + kSubpixel / 2 - plane.x0)) + (block_x() << kSubpixelBits));
-    const WideF fy = to_float((WideI(block_row * 4 * kSubpixel + kSubpixel / 2 - plane.y0)) + (block_y() << kSubpixelBits));
-    const WideF depth = clamp((fx * WideF(plane.dx) + fy * WideF(plane.dy)) + WideF(plane.d0), WideF(plane.lo), WideF(plane.hi));
+    const WideF fx =
+        to_float((WideI(block_col * 4 * kSubpixel + kSubpixel / 2 - plane.x0)) + (block_x() << kSubpixelBits));
+    const WideF fy =
+        to_float((WideI(block_row * 4 * kSubpixel + kSubpixel / 2 - plane.y0)) + (block_y() << kSubpixelBits));
+    const WideF depth =
+        clamp((fx * WideF(plane.dx) + fy * WideF(plane.dy)) + WideF(plane.d0), WideF(plane.lo), WideF(plane.hi));
     const WideF old_depth = WideF::load(depth_at);
     const WideI old_id = WideI::load(id_at);
     WideM pass = cover & ((depth > old_depth) | ((depth == old_depth) & (WideI(id) < old_id)));
@@ -200,8 +213,8 @@ class TileRaster {
     plane.lo = min(min(t.depth[0], t.depth[1]), t.depth[2]);
     plane.hi = max(max(t.depth[0], t.depth[1]), t.depth[2]);
     {
-      const std::int64_t area = std::int64_t(t.x[2] - t.x[0]) * (t.y[1] - t.y[0]) -
-                                std::int64_t(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]);
+      const std::int64_t area =
+          std::int64_t(t.x[2] - t.x[0]) * (t.y[1] - t.y[0]) - std::int64_t(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]);
       const float r = 1.0f / static_cast<float>(area);
       const float e1 = t.depth[1] - t.depth[0], e2 = t.depth[2] - t.depth[0];
       const float dx1 = static_cast<float>(t.x[1] - t.x[0]), dy1 = static_cast<float>(t.y[1] - t.y[0]);
@@ -227,7 +240,8 @@ class TileRaster {
       const std::int64_t x = std::int64_t(x_px) * kSubpixel + kSubpixel / 2 - t.x[k];
       const std::int64_t y = std::int64_t(y_px) * kSubpixel + kSubpixel / 2 - t.y[k];
       const std::int64_t value = (x * step_x[k] + y * step_y[k] - (inclusive ? 0 : 1)) >> kSubpixelBits;
-      const std::int64_t reach_x = std::int64_t(step_x[k]) * (kRegionSize - 1), reach_y = std::int64_t(step_y[k]) * (kRegionSize - 1);
+      const std::int64_t reach_x = std::int64_t(step_x[k]) * (kRegionSize - 1),
+                         reach_y = std::int64_t(step_y[k]) * (kRegionSize - 1);
       const std::int64_t greatest = value + (reach_x > 0 ? reach_x : 0) + (reach_y > 0 ? reach_y : 0);
       const std::int64_t least = value + (reach_x < 0 ? reach_x : 0) + (reach_y < 0 ? reach_y : 0);
       if (greatest < 0) return;
@@ -237,7 +251,8 @@ class TileRaster {
         e[k] = static_cast<std::int32_t>(value);
       }
     }
-    float* farthest = farthest_[((y_px - y0_) / kRegionSize) * ((x1_ - x0_ + kRegionSize - 1) / kRegionSize) + (x_px - x0_) / kRegionSize];
+    float* farthest = farthest_[((y_px - y0_) / kRegionSize) * ((x1_ - x0_ + kRegionSize - 1) / kRegionSize) +
+                                (x_px - x0_) / kRegionSize];
     // 64 -> 16: the 4 x 4 sub-blocks of 16 pixels, one a lane.
     const SubBlocks by16 = classify(e, step_x, step_y, 16);
     for (std::uint32_t m = by16.touched; m != 0; m &= m - 1) {
@@ -291,16 +306,17 @@ class TileRaster {
   // As write_block, with early rejection: `farthest` bounds the block's depths from below (it may be stale: depths only
   // grow).
   template <bool kMasked>
-  SHOAL_INLINE void write_block_large(int block_col, int block_row, WideM cover, const DepthPlane& plane, std::int32_t id,
-                                      float& farthest) {
+  SHOAL_INLINE void write_block_large(int block_col, int block_row, WideM cover, const DepthPlane& plane,
+                                      std::int32_t id, float& farthest) {
     if (plane.hi < farthest) return;
     write_block<kMasked>(block_col, block_row, cover, plane, id);
-    if (all(cover)) farthest = reduce_min(WideF::load(out_.depth.data() + out_.grid.block_offset(block_col, block_row)));
+    if (all(cover))
+      farthest = reduce_min(WideF::load(out_.depth.data() + out_.grid.block_offset(block_col, block_row)));
   }
 
   VisibilityBuffer& out_;
   const AlphaTest& alpha_;
-  int x0_, y0_, x1_, y1_;  // pixels; x1, y1 exclusive, inside of the frame
+  int x0_, y0_, x1_, y1_;                         // pixels; x1, y1 exclusive, inside of the frame
   alignas(64) float farthest_[kMaxRegions][256];  // by 4 x 4 block of each 64-pixel region
 };
 

@@ -38,7 +38,8 @@ float depth_m(const FrameData& f, const Pixel& p) {
 
 class Planes {
  public:
-  Planes(const AlignedArray<float>& x, const AlignedArray<float>& y, const AlignedArray<float>& z) : plane_{&x, &y, &z} {}
+  Planes(const AlignedArray<float>& x, const AlignedArray<float>& y, const AlignedArray<float>& z)
+      : plane_{&x, &y, &z} {}
   Vec3f at(std::size_t slot) const { return {(*plane_[0])[slot], (*plane_[1])[slot], (*plane_[2])[slot]}; }
 
  private:
@@ -51,25 +52,36 @@ Vec3f vector_at(const FrameData& f, Aov aov, const Pixel& p) {
   const Planes position(g[GBuffer::kPositionX], g[GBuffer::kPositionY], g[GBuffer::kPositionZ]);
   const Planes normal(g[GBuffer::kNormalX], g[GBuffer::kNormalY], g[GBuffer::kNormalZ]);
   switch (aov) {
-    case Aov::kPosition: return position.at(p.slot);
-    case Aov::kNormal: return normal.at(p.slot);
-    case Aov::kHitPosition: return Planes(h.x_world, h.y_world, h.z_world).at(p.slot);
-    case Aov::kVirtual: return p.water() ? Planes(h.virtual_x, h.virtual_y, h.virtual_z).at(p.slot) : position.at(p.slot);
-    case Aov::kSurfaceNormal: return p.water() ? f.water[static_cast<std::size_t>(p.id - kFirstWaterId)].body->normal : Vec3f{0, 0, 0};
-    default: return {0, 0, 0};
+    case Aov::kPosition:
+      return position.at(p.slot);
+    case Aov::kNormal:
+      return normal.at(p.slot);
+    case Aov::kHitPosition:
+      return Planes(h.x_world, h.y_world, h.z_world).at(p.slot);
+    case Aov::kVirtual:
+      return p.water() ? Planes(h.virtual_x, h.virtual_y, h.virtual_z).at(p.slot) : position.at(p.slot);
+    case Aov::kSurfaceNormal:
+      return p.water() ? f.water[static_cast<std::size_t>(p.id - kFirstWaterId)].body->normal : Vec3f{0, 0, 0};
+    default:
+      return {0, 0, 0};
   }
 }
 
 std::uint32_t uint_at(const FrameData& f, const RenderScene& scene, Aov aov, const Pixel& p) {
   switch (aov) {
-    case Aov::kIdTriangle: return id_out(p.id);
+    case Aov::kIdTriangle:
+      return id_out(p.id);
     case Aov::kIdNode:
       if (p.triangle()) return node_of(scene.geometry, p.id);
       return p.water() ? scene.waters[static_cast<std::size_t>(p.id - kFirstWaterId)].node : kNoneOut;
-    case Aov::kWaterMask: return p.water() ? static_cast<std::uint32_t>(p.id - kFirstWaterId) + 1u : 0u;
-    case Aov::kHitKind: return static_cast<std::uint32_t>(f.hit_points.kind[p.slot]);
-    case Aov::kHitId: return id_out(f.hit_points.id[p.slot]);
-    default: return 0;
+    case Aov::kWaterMask:
+      return p.water() ? static_cast<std::uint32_t>(p.id - kFirstWaterId) + 1u : 0u;
+    case Aov::kHitKind:
+      return static_cast<std::uint32_t>(f.hit_points.kind[p.slot]);
+    case Aov::kHitId:
+      return id_out(f.hit_points.id[p.slot]);
+    default:
+      return 0;
   }
 }
 
@@ -121,7 +133,8 @@ void copy_aovs(const FrameData& f, const RenderScene& scene, Frame& out) {
     } else {
       image.floats.reserve(pixels);
       // The surface is flat: its height over the plane is 0 wherever it shows.
-      for_each_pixel(f, [&](const Pixel& p) { image.floats.push_back(info.aov == Aov::kDepth ? depth_m(f, p) : 0.0f); });
+      for_each_pixel(f,
+                     [&](const Pixel& p) { image.floats.push_back(info.aov == Aov::kDepth ? depth_m(f, p) : 0.0f); });
     }
     out.aovs.push_back(std::move(image));
   }
@@ -131,7 +144,8 @@ void copy_linear(const FrameData& f, Frame& out) {
   out.linear.clear();
   out.linear.reserve(static_cast<std::size_t>(f.grid.width_px) * static_cast<std::size_t>(f.grid.height_px) * 4);
   for_each_pixel(f, [&](const Pixel& p) {
-    out.linear.insert(out.linear.end(), {f.lit.red[p.slot], f.lit.green[p.slot], f.lit.blue[p.slot], f.lit.alpha[p.slot]});
+    out.linear.insert(out.linear.end(),
+                      {f.lit.red[p.slot], f.lit.green[p.slot], f.lit.blue[p.slot], f.lit.alpha[p.slot]});
   });
 }
 

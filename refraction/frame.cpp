@@ -27,7 +27,9 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
   kernels.water_front_end(f);
   pool.for_each(items, [&](std::size_t item, int) { kernels.direct_front_end(f, item); });
   clock.lap("direct.front_end");
-  pool.for_each(tiles, [&](std::size_t tile, int) { kernels.draw_tile(f, f.direct, kernels.direct_alpha, nullptr, &f.water_bins, tile); });
+  pool.for_each(tiles, [&](std::size_t tile, int) {
+    kernels.draw_tile(f, f.direct, kernels.direct_alpha, nullptr, &f.water_bins, tile);
+  });
   clock.lap("direct.visibility");
   if (digests != nullptr) digests->direct(f), clock.skip();
 
@@ -50,7 +52,8 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
       pool.for_each(items, [&](std::size_t item, int) { kernels.mirrored_front_end(f, mirrored, item); });
       clock.lap("reflected.front_end");
       pool.for_each(tiles, [&](std::size_t tile, int) {
-        if (f.tile_active[tile] != 0) kernels.draw_tile(f, f.mirrored, kernels.mirrored_alpha, &mirrored, nullptr, tile);
+        if (f.tile_active[tile] != 0)
+          kernels.draw_tile(f, f.mirrored, kernels.mirrored_alpha, &mirrored, nullptr, tile);
       });
       clock.lap("reflected.visibility");
       if (digests != nullptr) digests->reflected(f), clock.skip();

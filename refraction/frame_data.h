@@ -31,8 +31,20 @@ struct HitBuffers {
 
 // Planes of one float a pixel, blocked: what digests and AOVs want to see of the pixel stages. Empty unless asked for.
 struct GBuffer {
-  enum Plane { kPositionX, kPositionY, kPositionZ, kNormalX, kNormalY, kNormalZ, kColorR, kColorG, kColorB, kMetallic,
-               kRoughness, kPlaneCount };
+  enum Plane {
+    kPositionX,
+    kPositionY,
+    kPositionZ,
+    kNormalX,
+    kNormalY,
+    kNormalZ,
+    kColorR,
+    kColorG,
+    kColorB,
+    kMetallic,
+    kRoughness,
+    kPlaneCount
+  };
   AlignedArray<float> plane[kPlaneCount];
 };
 struct HitPoints {
@@ -57,17 +69,17 @@ struct PassBins {
 // One warped pass over the scene for a body of water: refracted, or mirrored.
 struct WaterPass {
   const WaterBody* body = nullptr;
-  std::int32_t index = 0;           // of the body
-  BroadPhase optics;                // the body's plane with its true index
-  BroadPhase map;                   // the map that geometry is drawn with: the method's choice
-  Plane keep;                       // world clip plane: what the pass draws
-  Frustum frustum;                  // of the region's bounds
+  std::int32_t index = 0;  // of the body
+  BroadPhase optics;       // the body's plane with its true index
+  BroadPhase map;          // the map that geometry is drawn with: the method's choice
+  Plane keep;              // world clip plane: what the pass draws
+  Frustum frustum;         // of the region's bounds
   PassSettings pass;
   bool mirrored = false;
 };
 
-// Does the surface mirror the scene on the eye's own side? It does to an eye in the water, and to one on the denser side
-// (ior below 1), where reflection can be total; elsewhere it reflects the background (docs/decisions).
+// Does the surface mirror the scene on the eye's own side? It does to an eye in the water, and to one on the denser
+// side (ior below 1), where reflection can be total; elsewhere it reflects the background (docs/decisions).
 SHOAL_INLINE bool mirrors_scene(const BroadPhase& optics) {
   return optics.eye_below || (!optics.eye_is_thin && !optics.path.identity);
 }
@@ -80,31 +92,31 @@ struct FrameData {
   FrameGrid grid;
   BinGrid bin_grid;
   GeometryView geometry;
-  GeometryView water_geometry;      // the outlines of the bodies of water
-  SunShadows shadows;               // of the sun, which stands still as the scene does
+  GeometryView water_geometry;                     // the outlines of the bodies of water
+  SunShadows shadows;                              // of the sun, which stands still as the scene does
   std::vector<std::uint32_t> outline_first_chunk;  // of body b; one more at the end
 
   // This frame.
-  View view;                        // of this sample
+  View view;  // of this sample
   Frustum frustum;
   PassSettings direct_pass;
   int sample = 0, sample_count = 1;
-  bool capture = false;             // fill gbuffer and hit points (the sample at the pixel's centre)
-  bool accumulate = true;           // this sample enters the picture
+  bool capture = false;    // fill gbuffer and hit points (the sample at the pixel's centre)
+  bool accumulate = true;  // this sample enters the picture
   bool last_sample = true;
-  std::int32_t eye_in_water = -1;   // body that the eye is in, or -1
+  std::int32_t eye_in_water = -1;  // body that the eye is in, or -1
 
   PassBins bins;
   PassBins water_bins;
   VisibilityBuffer direct, refracted, mirrored;
-  std::vector<std::uint8_t> region_of_body;   // [regions] this pass's region, 64-pixel cells
-  std::vector<std::uint8_t> tile_active;      // [tiles] tiles that the region touches
-  std::vector<WaterPass> water;               // one a body, whether it shows or not
+  std::vector<std::uint8_t> region_of_body;  // [regions] this pass's region, 64-pixel cells
+  std::vector<std::uint8_t> tile_active;     // [tiles] tiles that the region touches
+  std::vector<WaterPass> water;              // one a body, whether it shows or not
   HitBuffers hits;
   HitPoints hit_points;
   GBuffer gbuffer;
   LitBuffer lit;
-  std::vector<std::uint8_t> srgb8;            // RGB rows
+  std::vector<std::uint8_t> srgb8;  // RGB rows
   std::uint64_t water_pixels = 0;
   std::uint64_t subdivision_capped = 0;
 };

@@ -17,32 +17,38 @@ std::uint32_t end_of_item(const FrameData& f, std::uint32_t first) {
 void direct_front_end(FrameData& f, std::size_t item) {
   const std::uint32_t first = static_cast<std::uint32_t>(item) * f.bins.chunks_per_item;
   const DirectProgram program{f.view, f.frustum};
-  FrontEnd<DirectProgram>(f.geometry, program, f.direct_pass, f.bins.items[item]).run(first, end_of_item(f, first), kNoId);
+  FrontEnd<DirectProgram>(f.geometry, program, f.direct_pass, f.bins.items[item])
+      .run(first, end_of_item(f, first), kNoId);
 }
 
 void water_front_end(FrameData& f) {
   const DirectProgram program{f.view, f.frustum};
   for (std::size_t body = 0; body + 1 < f.outline_first_chunk.size(); ++body) {
     FrontEnd<DirectProgram>(f.water_geometry, program, f.direct_pass, f.water_bins.items[body])
-        .run(f.outline_first_chunk[body], f.outline_first_chunk[body + 1], kFirstWaterId + static_cast<std::int32_t>(body));
+        .run(f.outline_first_chunk[body], f.outline_first_chunk[body + 1],
+             kFirstWaterId + static_cast<std::int32_t>(body));
   }
 }
 
 void refracted_front_end(FrameData& f, const WaterPass& water, std::size_t item) {
   const std::uint32_t first = static_cast<std::uint32_t>(item) * f.bins.chunks_per_item;
   const RefractedProgram program{{water, f.view}};
-  FrontEnd<RefractedProgram>(f.geometry, program, water.pass, f.bins.items[item]).run(first, end_of_item(f, first), kNoId);
+  FrontEnd<RefractedProgram>(f.geometry, program, water.pass, f.bins.items[item])
+      .run(first, end_of_item(f, first), kNoId);
 }
 
 void mirrored_front_end(FrameData& f, const WaterPass& water, std::size_t item) {
   const std::uint32_t first = static_cast<std::uint32_t>(item) * f.bins.chunks_per_item;
   const MirroredProgram program{{water, f.view}};
-  FrontEnd<MirroredProgram>(f.geometry, program, water.pass, f.bins.items[item]).run(first, end_of_item(f, first), kNoId);
+  FrontEnd<MirroredProgram>(f.geometry, program, water.pass, f.bins.items[item])
+      .run(first, end_of_item(f, first), kNoId);
 }
 
 // Where straight view rays meet the triangle.
-std::uint32_t direct_alpha(const FrameData& f, const WaterPass*, std::int32_t id, int x_px, int y_px, std::uint32_t cover) {
-  return alpha_bits(f, block_rays(f.view, make_block(f.grid, x_px, y_px)), pixel_ray_differential<WideF>(f.view), id, cover);
+std::uint32_t direct_alpha(const FrameData& f, const WaterPass*, std::int32_t id, int x_px, int y_px,
+                           std::uint32_t cover) {
+  return alpha_bits(f, block_rays(f.view, make_block(f.grid, x_px, y_px)), pixel_ray_differential<WideF>(f.view), id,
+                    cover);
 }
 
 // Where the mirrored ray meets it.
@@ -71,7 +77,8 @@ void draw_tile(FrameData& f, VisibilityBuffer& out, AlphaTest alpha, const Water
   const int x0 = static_cast<int>(tile % static_cast<std::size_t>(f.bin_grid.tiles_x)) * size;
   const int y0 = static_cast<int>(tile / static_cast<std::size_t>(f.bin_grid.tiles_x)) * size;
   const PassAlpha pass_alpha{f, water, alpha};
-  TileRaster<PassAlpha> raster(out, pass_alpha, x0, y0, min(x0 + size, f.grid.width_px), min(y0 + size, f.grid.height_px));
+  TileRaster<PassAlpha> raster(out, pass_alpha, x0, y0, min(x0 + size, f.grid.width_px),
+                               min(y0 + size, f.grid.height_px));
   raster.clear();
   if (early != nullptr)
     for (const BinItem& item : early->items) raster.draw(item, static_cast<std::uint32_t>(tile));
@@ -97,8 +104,8 @@ std::uint8_t water_in_region(const FrameData& f, std::int32_t body, std::size_t 
 }  // namespace
 
 FrameKernels make_frame_kernels() {
-  return {&direct_front_end, &water_front_end, &refracted_front_end, &mirrored_front_end, &draw_tile, &direct_alpha,
-          &mirrored_alpha, &water_in_region, &shadow_front_end, &draw_shadow_tile};
+  return {&direct_front_end, &water_front_end, &refracted_front_end, &mirrored_front_end, &draw_tile,
+          &direct_alpha,     &mirrored_alpha,  &water_in_region,     &shadow_front_end,   &draw_shadow_tile};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

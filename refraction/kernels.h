@@ -22,7 +22,8 @@ struct FrameKernels {
   // The same chunks at their virtual positions (WaterPass::map), or mirrored.
   void (*refracted_front_end)(FrameData&, const WaterPass&, std::size_t item);
   void (*mirrored_front_end)(FrameData&, const WaterPass&, std::size_t item);
-  // Bins to visibility, one tile; `early` bins first where there are any; `water` is the pass's, null for the direct one.
+  // Bins to visibility, one tile; `early` bins first where there are any; `water` is the pass's, null for the direct
+  // one.
   void (*draw_tile)(FrameData&, VisibilityBuffer& out, AlphaTest alpha, const WaterPass* water, const PassBins* early,
                     std::size_t tile);
   AlphaTest direct_alpha, mirrored_alpha;
@@ -31,8 +32,8 @@ struct FrameKernels {
   std::uint8_t (*water_in_region)(const FrameData&, std::int32_t body, std::size_t region, std::uint32_t& pixels);
   // The sun's depth: item `item` of a pass into its bins, and the bins of a map's passes to one tile of depth.
   void (*shadow_front_end)(const ShadowPass&, PassBins&, std::size_t item);
-  void (*draw_shadow_tile)(const FrameData&, const std::vector<ShadowPass>&, const std::vector<PassBins>&, VisibilityBuffer& out,
-                           std::size_t tile);
+  void (*draw_shadow_tile)(const FrameData&, const std::vector<ShadowPass>&, const std::vector<PassBins>&,
+                           VisibilityBuffer& out, std::size_t tile);
 };
 
 // What a method brings: its broad phase and its narrow phase (refraction/methods/method.h).

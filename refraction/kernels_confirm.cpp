@@ -22,8 +22,8 @@ SHOAL_INLINE TriangleTest test_triangles(const GeometryView& g, const Ray<WideF>
     e2 = select<WideF>(lanes, broadcast<WideF>(c), e2);
   });
   const TriangleHit<WideF> hit = intersect_triangle(ray, p0, e1, e2);
-  const WideM inside = active & hit.valid & (hit.t > WideF(0.0f)) & (hit.u >= WideF(-kSlack)) & (hit.v >= WideF(-kSlack)) &
-                       (hit.u + hit.v <= WideF(1.0f + kSlack));
+  const WideM inside = active & hit.valid & (hit.t > WideF(0.0f)) & (hit.u >= WideF(-kSlack)) &
+                       (hit.v >= WideF(-kSlack)) & (hit.u + hit.v <= WideF(1.0f + kSlack));
   return {hit.t, inside};
 }
 
@@ -36,8 +36,8 @@ SHOAL_INLINE WideI ids_at(const VisibilityBuffer& visibility, WideI x, WideI y, 
 
 }  // namespace
 
-WideI confirm_hit(const GeometryView& g, const VisibilityBuffer& visibility,
-                                                   const Ray<WideF>& ray, WideI own, WideI x_px, WideI y_px, WideM lanes) {
+WideI confirm_hit(const GeometryView& g, const VisibilityBuffer& visibility, const Ray<WideF>& ray, WideI own,
+                  WideI x_px, WideI y_px, WideM lanes) {
   const WideM drawn = lanes & (own >= WideI(0)) & (own != WideI(kNoId));
   WideM missing = lanes;
   if (any(drawn)) missing = lanes & !test_triangles(g, ray, own, drawn).inside;

@@ -12,7 +12,8 @@ static Vec3<WideF> light_under_water(const WaterPass& water, const Lighting& lig
   const WaterBody& body = *water.body;
   const WideF depth_m = max(-dot(position - broadcast<WideF>(body.origin), broadcast<WideF>(body.normal)), WideF(0.0f));
   float cosine = 1.0f;
-  if (!lighting.directional.empty()) cosine = min(max(-dot(lighting.directional[0].direction_world, body.normal), 0.05f), 1.0f);
+  if (!lighting.directional.empty())
+    cosine = min(max(-dot(lighting.directional[0].direction_world, body.normal), 0.05f), 1.0f);
   const float eta = 1.0f / body.ior;
   const float sine2 = eta * eta * (1.0f - cosine * cosine);
   const float cosine_water = sqrt(max(1.0f - sine2, 0.01f));
@@ -37,9 +38,8 @@ struct MappedSun {
   }
 };
 
-void shade_hits(const FrameData& f, const Ray<WideF>& ray,
-                                                 const RayDifferential<WideF>& differential, WideI id, WideM active,
-                                                 const WaterPass* water, ShadedLanes& out) {
+void shade_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideI id,
+                WideM active, const WaterPass* water, ShadedLanes& out) {
   PixelAttributes<WideF> a;
   resolve_attributes(f.geometry, ray, differential, id, active, a);
   const Vec3<WideF> to_eye = -normalize(ray.direction_world);

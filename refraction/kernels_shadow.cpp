@@ -1,6 +1,6 @@
 // The sun's depth passes (refraction/shadow_map.h): one copy an ISA.
-#include "raster/visibility.h"
 #include "refraction/kernels_shadow.h"
+#include "raster/visibility.h"
 #include "refraction/pixel_stage.h"
 #include "refraction/water_programs.h"
 

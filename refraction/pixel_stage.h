@@ -17,7 +17,8 @@ struct Block {
 };
 SHOAL_INLINE Block make_block(const FrameGrid& grid, int x_px, int y_px) {
   const WideI x = WideI(x_px) + block_x(), y = WideI(y_px) + block_y();
-  return {x_px, y_px, grid.block_offset(x_px >> 2, y_px >> 2), (x < WideI(grid.width_px)) & (y < WideI(grid.height_px))};
+  return {x_px, y_px, grid.block_offset(x_px >> 2, y_px >> 2),
+          (x < WideI(grid.width_px)) & (y < WideI(grid.height_px))};
 }
 
 // Calls body(Block) for each block of a 64-pixel region that has pixels of the frame.
@@ -57,8 +58,8 @@ struct ShadedLanes {
 };
 
 //   water  the body that the points may lie in (its water dims their light), or null
-void shade_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideI id, WideM active,
-                const WaterPass* water, ShadedLanes& out);
+void shade_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideI id,
+                WideM active, const WaterPass* water, ShadedLanes& out);
 
 // The covered pixels that a masked triangle's material keeps where the rays meet it.
 std::uint32_t alpha_bits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential,

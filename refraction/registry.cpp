@@ -13,13 +13,18 @@ namespace {
 const KernelTable& table_of(Isa isa) {
   switch (isa) {
 #if defined(__x86_64__)
-    case Isa::kSse42: return kernel_table_isa_sse42();
-    case Isa::kAvx2: return kernel_table_isa_avx2();
-    case Isa::kAvx512: return kernel_table_isa_avx512();
+    case Isa::kSse42:
+      return kernel_table_isa_sse42();
+    case Isa::kAvx2:
+      return kernel_table_isa_avx2();
+    case Isa::kAvx512:
+      return kernel_table_isa_avx512();
 #elif defined(__aarch64__)
-    case Isa::kNeon: return kernel_table_isa_neon();
+    case Isa::kNeon:
+      return kernel_table_isa_neon();
 #endif
-    default: return kernel_table_isa_scalar();
+    default:
+      return kernel_table_isa_scalar();
   }
 }
 

@@ -21,19 +21,26 @@ void check(bool ok, const std::string& what) {
 
 void check_settings(const FrameSettings& s, const RenderScene& scene) {
   check(s.width_px >= 1 && s.width_px <= 16384 && s.height_px >= 1 && s.height_px <= 16384,
-        "size " + std::to_string(s.width_px) + "x" + std::to_string(s.height_px) + " is out of range; expected 1x1 to 16384x16384");
+        "size " + std::to_string(s.width_px) + "x" + std::to_string(s.height_px) +
+            " is out of range; expected 1x1 to 16384x16384");
   check(s.spp >= 1 && s.spp <= 256, "spp " + std::to_string(s.spp) + " is out of range; expected 1 to 256");
-  check(s.threads >= 0 && s.threads <= 256, "threads " + std::to_string(s.threads) + " is out of range; expected 1 to 256");
+  check(s.threads >= 0 && s.threads <= 256,
+        "threads " + std::to_string(s.threads) + " is out of range; expected 1 to 256");
   check(s.tile_px >= 16 && s.tile_px <= 256 && (s.tile_px & (s.tile_px - 1)) == 0,
         "tile " + std::to_string(s.tile_px) + " is not allowed; expected a power of two from 16 to 256");
   check(s.anisotropy == 1, "anisotropy " + std::to_string(s.anisotropy) + " has not come yet; expected 1");
   check(s.shadow_map_px >= 256 && s.shadow_map_px <= 8192 && (s.shadow_map_px & (s.shadow_map_px - 1)) == 0,
-        "shadow map size " + std::to_string(s.shadow_map_px) + " is not allowed; expected a power of two from 256 to 8192");
-  check(s.exposure_stops >= -100.0f && s.exposure_stops <= 100.0f, "exposure is out of range; expected -100 to 100 stops");
+        "shadow map size " + std::to_string(s.shadow_map_px) +
+            " is not allowed; expected a power of two from 256 to 8192");
+  check(s.exposure_stops >= -100.0f && s.exposure_stops <= 100.0f,
+        "exposure is out of range; expected -100 to 100 stops");
   const std::vector<Isa> isas = supported_isas();
-  check(std::find(isas.begin(), isas.end(), s.isa) != isas.end(), std::string("isa ") + isa_name(s.isa) + " does not run on this machine");
-  check(s.method_options.empty(), "option '" + (s.method_options.empty() ? "" : s.method_options.begin()->first) + "' is unknown to method " + s.method);
-  check(scene.geometry.triangles.size() < static_cast<std::size_t>(kNoId), "the scene has too many triangles; expected fewer than 2147483647");
+  check(std::find(isas.begin(), isas.end(), s.isa) != isas.end(),
+        std::string("isa ") + isa_name(s.isa) + " does not run on this machine");
+  check(s.method_options.empty(), "option '" + (s.method_options.empty() ? "" : s.method_options.begin()->first) +
+                                      "' is unknown to method " + s.method);
+  check(scene.geometry.triangles.size() < static_cast<std::size_t>(kNoId),
+        "the scene has too many triangles; expected fewer than 2147483647");
   check(scene.waters.size() < static_cast<std::size_t>(kMaxWaterBodies), "the scene has too many bodies of water");
 }
 
@@ -71,13 +78,15 @@ struct Renderer::Impl {
   const Method& method;
   ThreadPool pool;
   FrameData frame;
-  Geometry outlines;        // of the bodies of water
+  Geometry outlines;  // of the bodies of water
   Materials outline_materials;
   StageClock clock;
 
   Impl(const RenderScene& s, const FrameSettings& settings)
-      : moved(s.moves() ? std::make_unique<RenderScene>(s) : nullptr), scene(moved ? *moved : s),
-        kernels(frame_kernels(settings.isa)), method(find_method(settings.method, settings.isa)),
+      : moved(s.moves() ? std::make_unique<RenderScene>(s) : nullptr),
+        scene(moved ? *moved : s),
+        kernels(frame_kernels(settings.isa)),
+        method(find_method(settings.method, settings.isa)),
         pool(settings.threads > 0 ? settings.threads : available_threads()) {
     build_outlines();
     FrameData& f = frame;

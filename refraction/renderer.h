@@ -21,8 +21,19 @@ enum class ToneMap : std::uint8_t { kNone, kAces };
 
 // Every buffer that can be asked for beside the picture. Names and channels: aov_infos().
 enum class Aov : std::uint8_t {
-  kDepth, kNormal, kPosition, kIdTriangle, kIdNode, kVirtual, kWaterMask,
-  kSurfaceHeight, kSurfaceNormal, kHitKind, kHitPosition, kHitId, kCount
+  kDepth,
+  kNormal,
+  kPosition,
+  kIdTriangle,
+  kIdNode,
+  kVirtual,
+  kWaterMask,
+  kSurfaceHeight,
+  kSurfaceNormal,
+  kHitKind,
+  kHitPosition,
+  kHitId,
+  kCount
 };
 struct AovInfo {
   Aov aov;
@@ -44,19 +55,19 @@ struct FrameSettings {
   Isa isa = Isa::kScalar;                             // see supported_isas()
   int anisotropy = 1;
   Shadows shadows = Shadows::kMap;
-  int shadow_map_px = 4096;                           // a power of two, 256 to 8192
+  int shadow_map_px = 4096;  // a power of two, 256 to 8192
   float exposure_stops = 0;
   ToneMap tone_map = ToneMap::kNone;
-  std::uint32_t aovs = 0;      // bit 1 << int(Aov)
-  bool digests = false;        // compute stage digests
-  bool keep_linear = false;    // fill Frame::linear
+  std::uint32_t aovs = 0;    // bit 1 << int(Aov)
+  bool digests = false;      // compute stage digests
+  bool keep_linear = false;  // fill Frame::linear
 };
 
 // Rows top to bottom, no padding.
 struct AovImage {
   Aov aov;
   int channels = 1;
-  std::vector<float> floats;            // interleaved; or
+  std::vector<float> floats;  // interleaved; or
   std::vector<std::uint32_t> uints;
 };
 
@@ -65,15 +76,15 @@ struct Frame {
   std::vector<std::uint8_t> srgb8;  // RGB, the final 8-bit picture
   std::vector<float> linear;        // RGBA, exposure not applied; A is the share of samples that hit something
   std::vector<AovImage> aovs;       // of the pixels' centres
-  std::vector<std::pair<std::string, std::string>> digests;   // stage, hex; in pipeline order
-  std::vector<std::pair<std::string, double>> stages_ms;      // in pipeline order
+  std::vector<std::pair<std::string, std::string>> digests;  // stage, hex; in pipeline order
+  std::vector<std::pair<std::string, double>> stages_ms;     // in pipeline order
   double frame_ms = 0;
   std::uint64_t water_pixels = 0;
   std::uint64_t subdivision_capped = 0;  // triangles that reached the subdivision's level cap
 };
 
-// Holds what does not depend on camera and time: chunks, buffers, threads; of an animated scene a copy of its own, which
-// it moves. One frame at a time.
+// Holds what does not depend on camera and time: chunks, buffers, threads; of an animated scene a copy of its own,
+// which it moves. One frame at a time.
 class Renderer {
  public:
   // Throws UsageError for settings out of their domain or an unknown method. The scene must outlive the renderer.
@@ -107,10 +118,10 @@ const std::vector<MethodInfo>& method_infos();
 
 // One world point through every stage (shoal probe --point).
 struct PointProbe {
-  bool refracted = false;   // its path crosses the first body of water
+  bool refracted = false;  // its path crosses the first body of water
   Vec3f world, virtual_world, crossing_world;
-  Vec2f pixel;              // of the virtual position; not finite when it is behind the camera
-  float path_m = 0;         // from the eye to the point, along the bent path
+  Vec2f pixel;                // of the virtual position; not finite when it is behind the camera
+  float path_m = 0;           // from the eye to the point, along the bent path
   const char* side = "none";  // "air" or "water": where the point is; "none" without water
 };
 PointProbe probe_point(const RenderScene& scene, const Camera& camera, int width_px, int height_px, Vec3f world);

@@ -10,7 +10,8 @@ Vec2f sample_position(int s, int n) {
   constexpr std::uint32_t kStepX = 3242174889u, kStepY = 2447445414u;
   const std::uint32_t k = static_cast<std::uint32_t>(s) + 1u;
   const std::uint32_t x = 0x80000000u + k * kStepX, y = 0x80000000u + k * kStepY;
-  return {static_cast<float>(static_cast<int>(x >> 24) - 128) / 256.0f, static_cast<float>(static_cast<int>(y >> 24) - 128) / 256.0f};
+  return {static_cast<float>(static_cast<int>(x >> 24) - 128) / 256.0f,
+          static_cast<float>(static_cast<int>(y >> 24) - 128) / 256.0f};
 }
 
 }  // namespace shoal

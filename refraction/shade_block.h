@@ -18,8 +18,8 @@ constexpr float kFarAway_m = 1e6f;
 SHOAL_INLINE void put(AlignedArray<float>& plane, std::size_t at, WideF v, WideM lanes) {
   store_masked(plane.data() + at, v, lanes);
 }
-SHOAL_INLINE void put3(AlignedArray<float>& x, AlignedArray<float>& y, AlignedArray<float>& z, std::size_t at, Vec3<WideF> v,
-                       WideM lanes) {
+SHOAL_INLINE void put3(AlignedArray<float>& x, AlignedArray<float>& y, AlignedArray<float>& z, std::size_t at,
+                       Vec3<WideF> v, WideM lanes) {
   put(x, at, v.x, lanes), put(y, at, v.y, lanes), put(z, at, v.z, lanes);
 }
 
@@ -78,8 +78,8 @@ SHOAL_INLINE Vec3<WideF> look(const FrameData& f, const WaterPass& water, const 
 
 // The lanes of a block that show one body's surface.
 template <class M>
-__attribute__((noinline)) void shade_water(FrameData& f, const Block& block, const WaterPass& water, const Ray<WideF>& ray,
-                                           WideM lanes, BlockColor& out) {
+__attribute__((noinline)) void shade_water(FrameData& f, const Block& block, const WaterPass& water,
+                                           const Ray<WideF>& ray, WideM lanes, BlockColor& out) {
   const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
   const WaterRays<WideF> r = M::template rays<WideF>(water, ray, differential);
   const ExactRay<WideF>& at = r.at_surface;
@@ -89,7 +89,8 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
 
   if (f.capture) {
     // At water pixels the G-buffer holds the surface itself.
-    shade_detail::capture_surface(f, block, {at.crossing_world, at.normal, zero, WideF(0.0f), WideF(0.0f), WideF(0.0f), zero}, lanes);
+    shade_detail::capture_surface(
+        f, block, {at.crossing_world, at.normal, zero, WideF(0.0f), WideF(0.0f), WideF(0.0f), zero}, lanes);
     shade_detail::capture_hits(f, block, zero, zero, WideI(kNoId), HitKind::kSky, lanes);
   }
   Vec3<WideF> refracted = zero, reflected = zero;
@@ -99,7 +100,8 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
                      [&](const ShadedLanes& s, WideM hit) SHOAL_LAMBDA {
                        if (!f.capture) return;
                        const Vec3<WideF> p = s.surface.position_world;
-                       shade_detail::capture_hits(f, block, p, virtual_position(water.optics, p), shown, HitKind::kSurface, hit);
+                       shade_detail::capture_hits(f, block, p, virtual_position(water.optics, p), shown,
+                                                  HitKind::kSurface, hit);
                      });
   }
   if (mirrors_scene(water.optics)) {
@@ -155,14 +157,16 @@ SHOAL_INLINE void shade_block(FrameData& f, const Block& block, BlockColor& out)
 }
 
 // Adds the sample to the picture; the last one encodes it.
-SHOAL_INLINE void finish_block(FrameData& f, const Block& block, const PostSettings& post, float exposure, BlockColor c) {
+SHOAL_INLINE void finish_block(FrameData& f, const Block& block, const PostSettings& post, float exposure,
+                               BlockColor c) {
   if (f.lit.red.size() != 0) {
-    float* planes[4] = {f.lit.red.data() + block.offset, f.lit.green.data() + block.offset, f.lit.blue.data() + block.offset,
-                        f.lit.alpha.data() + block.offset};
+    float* planes[4] = {f.lit.red.data() + block.offset, f.lit.green.data() + block.offset,
+                        f.lit.blue.data() + block.offset, f.lit.alpha.data() + block.offset};
     WideF* values[4] = {&c.radiance.x, &c.radiance.y, &c.radiance.z, &c.covered};
     for (int i = 0; i < 4; ++i) {
       if (f.sample > 0) *values[i] = WideF::load(planes[i]) + *values[i];
-      if (f.last_sample && f.sample_count > 1) *values[i] = *values[i] * WideF(1.0f / static_cast<float>(f.sample_count));
+      if (f.last_sample && f.sample_count > 1)
+        *values[i] = *values[i] * WideF(1.0f / static_cast<float>(f.sample_count));
       values[i]->store(planes[i]);
     }
   }
@@ -170,14 +174,16 @@ SHOAL_INLINE void finish_block(FrameData& f, const Block& block, const PostSetti
   const Vec3<WideF> display = tone_map<WideF>(c.radiance, post, exposure);
   const WideI r = encode_srgb8(display.x), g = encode_srgb8(display.y), b = encode_srgb8(display.z);
   const std::size_t row_bytes = static_cast<std::size_t>(f.grid.width_px) * 3;
-  std::uint8_t* pixels = f.srgb8.data() + static_cast<std::size_t>(block.y_px) * row_bytes + static_cast<std::size_t>(block.x_px) * 3;
+  std::uint8_t* pixels =
+      f.srgb8.data() + static_cast<std::size_t>(block.y_px) * row_bytes + static_cast<std::size_t>(block.x_px) * 3;
   if (all(block.in_frame)) {
     store_rgb8_block(pixels, row_bytes, r, g, b);
     return;
   }
   std::uint8_t tile[48];
   store_rgb8_block(tile, 12, r, g, b);
-  const int columns = min(kBlockSize, f.grid.width_px - block.x_px), rows = min(kBlockSize, f.grid.height_px - block.y_px);
+  const int columns = min(kBlockSize, f.grid.width_px - block.x_px),
+            rows = min(kBlockSize, f.grid.height_px - block.y_px);
   for (int y = 0; y < rows; ++y)
     std::memcpy(pixels + static_cast<std::size_t>(y) * row_bytes, tile + 12 * y, static_cast<std::size_t>(columns) * 3);
 }

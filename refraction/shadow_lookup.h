@@ -17,13 +17,12 @@ inline constexpr float kNormalOffsetTexels = 2.2f;
 //   map       a level of the map of the medium that the points are in
 //   position  world; normal: unit, of the surface, towards the sun's side
 //   lanes     that are wanted; the others get anything from 0 to 1
-// Returns 0 (in shadow) to 1, and which of the lanes are inside of the level. The edge is two texels wide and moves smoothly.
-// Source: percentage-closer filtering (Reeves, Salesin, Cook 1987) over a box of two texels round the bilinear
-// position; normal offset as Holbert (2011).
-// Error: none for points farther from a shadow's edge than kNormalOffsetTexels + 1.5 texels along the surface
-// (tests/refraction/test_shadow.cpp).
-__attribute__((noinline)) inline WideF level_visibility(const ShadowMap& map, Vec3<WideF> position,
-                                                        Vec3<WideF> normal, WideM lanes, WideM& inside) {
+// Returns 0 (in shadow) to 1, and which of the lanes are inside of the level. The edge is two texels wide and moves
+// smoothly. Source: percentage-closer filtering (Reeves, Salesin, Cook 1987) over a box of two texels round the
+// bilinear position; normal offset as Holbert (2011). Error: none for points farther from a shadow's edge than
+// kNormalOffsetTexels + 1.5 texels along the surface (tests/refraction/test_shadow.cpp).
+__attribute__((noinline)) inline WideF level_visibility(const ShadowMap& map, Vec3<WideF> position, Vec3<WideF> normal,
+                                                        WideM lanes, WideM& inside) {
   const WideF zero(0.0f), one(1.0f);
   if (map.bend.bent) {
     const Vec3<WideF> plane_normal = broadcast<WideF>(map.bend.normal), shear = broadcast<WideF>(map.bend.shear);

@@ -89,7 +89,9 @@ ShadowMap place_map(const Extent& extent, const SunAxes& axes, int size_px) {
   const float widest = std::fmax(width_of(extent), 1e-3f);
   const float step = as_float(as_int(widest) & 0x7F800000) * 0.0625f;
   map.texel_m = std::ceil(widest / step) * step / static_cast<float>(size_px - 2 * kBorderTexels);
-  const auto snapped = [&](float lo, float hi) { return std::floor((lo + hi) * 0.5f / map.texel_m + 0.5f) * map.texel_m; };
+  const auto snapped = [&](float lo, float hi) {
+    return std::floor((lo + hi) * 0.5f / map.texel_m + 0.5f) * map.texel_m;
+  };
   const float range = extent.hi.z - extent.lo.z, margin = std::fmax(range * 0.01f, 1e-2f);
   Camera camera;
   camera.right_world = axes.right, camera.up_world = axes.up, camera.forward_world = axes.forward;
@@ -154,7 +156,8 @@ void measure_steepness(ShadowMap& map, int cell_row) {
   for (int y = 0; y < kRows; ++y) {
     const int row = std::min(y0 + y, size - 1);
     float* to = texels.data() + width * static_cast<std::size_t>(y);
-    for (int x = 0; x < size; x += kBlockSize) std::copy_n(map.depth.data() + map.grid.slot(x, row), kBlockSize, to + x);
+    for (int x = 0; x < size; x += kBlockSize)
+      std::copy_n(map.depth.data() + map.grid.slot(x, row), kBlockSize, to + x);
   }
   for (int y = 0; y < kRows; ++y) {
     const float* row = texels.data() + width * static_cast<std::size_t>(y);
@@ -179,7 +182,8 @@ void draw_map(const FrameData& f, ShadowMap& map, const GeometryView& casters, V
     bins[i].chunk_count = f.bins.chunk_count;
     bins[i].chunks_per_item = f.bins.chunks_per_item;
     bins[i].items.resize(f.bins.items.size());
-    pool.for_each(bins[i].items.size(), [&](std::size_t item, int) { kernels.shadow_front_end(passes[i], bins[i], item); });
+    pool.for_each(bins[i].items.size(),
+                  [&](std::size_t item, int) { kernels.shadow_front_end(passes[i], bins[i], item); });
   }
   scratch.resize(map.grid);
   const BinGrid& grid = passes[0].pass.grid;

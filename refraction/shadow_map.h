@@ -23,19 +23,19 @@ namespace shoal {
 
 // How sunlight goes on under one plane.
 struct SunBend {
-  bool bent = false;           // false: straight on
-  Vec3f origin, normal;        // of the plane; the sun is on the normal's side
-  Vec3f shear;                 // metres along the plane a metre of depth
-  Vec3f refracted_world;       // unit, the way that the light travels below
+  bool bent = false;      // false: straight on
+  Vec3f origin, normal;   // of the plane; the sun is on the normal's side
+  Vec3f shear;            // metres along the plane a metre of depth
+  Vec3f refracted_world;  // unit, the way that the light travels below
 };
 
 struct ShadowMap {
-  View view;                   // orthographic, from the sun
+  View view;  // orthographic, from the sun
   FrameGrid grid;
   SunBend bend;
   float texel_m = 1;
-  float bias = 0;              // of depths, in their own unit
-  AlignedArray<float> depth;   // blocked; greater is nearer to the sun, 0 where nothing is
+  float bias = 0;             // of depths, in their own unit
+  AlignedArray<float> depth;  // blocked; greater is nearer to the sun, 0 where nothing is
   // By cell of kShadowCell texels a side, in rows: how far any depth of a look-up that begins there can be from its
   // middle tap's. Small on smooth surfaces, where one tap then decides for all.
   AlignedArray<float> steepness;
@@ -58,12 +58,12 @@ struct SunShadows {
 
 // Part of the scene drawn into a map: all of it, or what lies on one side of the water.
 struct ShadowPass {
-  GeometryView geometry;       // materials seen from both sides
+  GeometryView geometry;  // materials seen from both sides
   const ShadowMap* map = nullptr;
   PassSettings pass;
   bool clipped = false;
-  Plane keep{{0, 0, 0}, 0};    // where clipped
-  bool sheared = false;        // the part below the plane
+  Plane keep{{0, 0, 0}, 0};  // where clipped
+  bool sheared = false;      // the part below the plane
 };
 
 // Bodies beyond this many planes count as air for shadows: a map is big.

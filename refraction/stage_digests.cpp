@@ -24,7 +24,8 @@ namespace {
 
 // Rows of pixels; with a region, only the pixels of its cells.
 template <class T>
-void add_rows(Digest& digest, const FrameGrid& grid, const AlignedArray<T>& buffer, const std::vector<std::uint8_t>* region) {
+void add_rows(Digest& digest, const FrameGrid& grid, const AlignedArray<T>& buffer,
+              const std::vector<std::uint8_t>* region) {
   std::vector<T> row;
   for (int y = 0; y < grid.height_px; ++y) {
     row.clear();
@@ -71,7 +72,8 @@ void StageDigests::shaded(const FrameData& f) {
 }
 
 void StageDigests::picture(const FrameData& f) {
-  for (const auto* plane : {&f.lit.red, &f.lit.green, &f.lit.blue, &f.lit.alpha}) add_rows(stage("lit"), f.grid, *plane, nullptr);
+  for (const auto* plane : {&f.lit.red, &f.lit.green, &f.lit.blue, &f.lit.alpha})
+    add_rows(stage("lit"), f.grid, *plane, nullptr);
   stage("final").add(f.srgb8.data(), f.srgb8.size());
 }
 

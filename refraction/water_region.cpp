@@ -13,7 +13,8 @@ constexpr float kOverlap_m = 0.02f;
 
 // Seen along the normal, is p inside of the triangle (either orientation)?
 bool inside_triangle(Vec3f p, Vec3f a, Vec3f b, Vec3f c, Vec3f normal) {
-  const float ab = dot(cross(b - a, p - a), normal), bc = dot(cross(c - b, p - b), normal), ca = dot(cross(a - c, p - c), normal);
+  const float ab = dot(cross(b - a, p - a), normal), bc = dot(cross(c - b, p - b), normal),
+              ca = dot(cross(a - c, p - c), normal);
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
@@ -81,7 +82,8 @@ bool find_region(FrameData& f, const FrameKernels& kernels, WaterPass& water, Th
       const int ry1 = std::min((((ty + 1) << grid.tile_shift) - 1) / kRegionSize, ny - 1);
       std::uint8_t active = 0;
       for (int y = ry0; y <= ry1; ++y)
-        for (int x = rx0; x <= rx1; ++x) active = static_cast<std::uint8_t>(active | region[static_cast<std::size_t>(y * nx + x)]);
+        for (int x = rx0; x <= rx1; ++x)
+          active = static_cast<std::uint8_t>(active | region[static_cast<std::size_t>(y * nx + x)]);
       f.tile_active[static_cast<std::size_t>(ty * grid.tiles_x + tx)] = active;
     }
 

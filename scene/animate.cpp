@@ -124,8 +124,9 @@ PlayingChannels playing_channels(const Scene& scene) {
   std::set<std::pair<std::int32_t, ChannelPath>> taken;
   for (std::size_t a = 0; a < scene.animations.size(); ++a) {
     const std::vector<Channel>& channels = scene.animations[a].channels;
-    const bool free = std::none_of(channels.begin(), channels.end(),
-                                   [&](const Channel& c) { return taken.count({c.node, c.path}) != 0; });
+    const bool free = std::none_of(channels.begin(), channels.end(), [&](const Channel& c) {
+      return taken.count({c.node, c.path}) != 0;
+    });
     if (!free) {
       playing.left_out.push_back(a);
       continue;

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "scene/transform.h"
 #include "scene/scene.h"
+#include "scene/transform.h"
 
 namespace shoal {
 
@@ -18,7 +18,7 @@ struct PlayingChannels {
 PlayingChannels playing_channels(const Scene& scene);
 
 struct Pose {
-  std::vector<Affine> world_from_local;     // one a node, in double
+  std::vector<Affine> world_from_local;           // one a node, in double
   std::vector<std::vector<float>> morph_weights;  // one a node, empty where it has none
 };
 

@@ -21,8 +21,8 @@ struct LocalTransform {
 // A skinned vertex follows its joints, not its own node.
 struct Skin {
   std::string name;
-  std::vector<std::int32_t> joints;    // into Scene::nodes
-  std::vector<Mat4> joint_from_mesh;   // inverse bind matrices, one a joint
+  std::vector<std::int32_t> joints;   // into Scene::nodes
+  std::vector<Mat4> joint_from_mesh;  // inverse bind matrices, one a joint
 };
 
 // Displacements at weight 1.

@@ -290,7 +290,8 @@ void ambient_from_background(Lighting& lighting) {
 PunctualLight place_lamp(const Scene& scene, const Node& node, const LightSpec& spec, Vec3f direction) {
   PunctualLight light;
   light.position_world = column(node.world_from_local, 3);
-  if (!is_finite(light.position_world)) fail(scene, node, "the light's place is not finite; expected a finite position");
+  if (!is_finite(light.position_world))
+    fail(scene, node, "the light's place is not finite; expected a finite position");
   light.direction_world = direction;
   light.intensity = spec.color * spec.intensity;
   if (spec.range_m > 0) {
@@ -325,7 +326,8 @@ Lighting building::make_lighting(const Scene& scene) {
       lighting.directional.push_back({direction, spec.color * spec.intensity});
     }
   }
-  if (lit && lighting.directional.empty() && lighting.punctual.empty()) lighting.directional.push_back({-kDefaultToSun, kDefaultSunIrradiance});
+  if (lit && lighting.directional.empty() && lighting.punctual.empty())
+    lighting.directional.push_back({-kDefaultToSun, kDefaultSunIrradiance});
 
   if (scene.has_background) {
     lighting.background = scene.background;

@@ -33,7 +33,9 @@ class Deformer {
  public:
   //   pose  of the scene's nodes; it and the mesh must outlive the deformer
   Deformer(const Scene& scene, const Pose& pose, std::size_t node_index, const MeshPrimitive& mesh)
-      : mesh_(mesh), weights_(pose.morph_weights[node_index]), world_(narrow(pose.world_from_local[node_index])),
+      : mesh_(mesh),
+        weights_(pose.morph_weights[node_index]),
+        world_(narrow(pose.world_from_local[node_index])),
         normal_matrix_(world_) {
     const Node& node = scene.nodes[node_index];
     if (is_skinned(node, mesh)) joints_ = joint_matrices(scene.skins[static_cast<std::size_t>(node.skin)], pose);
@@ -60,9 +62,7 @@ class Deformer {
 
   bool has_tangents() const { return !mesh_.tangents.empty(); }
   // Of a mesh with tangents. Targets do not bend them.
-  Vec4f tangent(std::size_t v) const {
-    return place_tangent(joints_.empty() ? world_ : blended(v), mesh_.tangents[v]);
-  }
+  Vec4f tangent(std::size_t v) const { return place_tangent(joints_.empty() ? world_ : blended(v), mesh_.tangents[v]); }
 
  private:
   Vec3f morphed_position(std::size_t v) const {

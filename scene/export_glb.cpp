@@ -9,8 +9,8 @@
 
 #include "core/error.h"
 #include "scene/export_glb_file.h"
-#include "scene/transform.h"
 #include "scene/images.h"
+#include "scene/transform.h"
 
 namespace shoal {
 namespace {
@@ -29,7 +29,8 @@ Bytes bytes_of(const std::vector<T>& values) {
   return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(T)};
 }
 
-constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123, kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123, kArrayBuffer = 34962,
+              kElementArrayBuffer = 34963;
 
 class GlbWriter {
  public:
@@ -231,8 +232,9 @@ json GlbWriter::transform_json(const LocalTransform& local) const {
 }
 
 void GlbWriter::add_nodes() {
-  require(scene_.locals.empty() || scene_.locals.size() == scene_.nodes.size(), "has local transforms of some nodes only");
-  std::vector<Affine> worlds;    // as the loader will have them
+  require(scene_.locals.empty() || scene_.locals.size() == scene_.nodes.size(),
+          "has local transforms of some nodes only");
+  std::vector<Affine> worlds;          // as the loader will have them
   std::vector<std::size_t> ancestors;  // of the next node
   for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
     const Node& node = scene_.nodes[i];
@@ -378,8 +380,9 @@ void GlbWriter::add_animations() {
       const std::size_t components = of_weights ? 1 : rotates ? 4 : 3;
       const char* type = of_weights ? "SCALAR" : rotates ? "VEC4" : "VEC3";
       const std::size_t output = add_owned(channel.values, kFloat, type, components);
-      channels.push_back({{"sampler", samplers.size()},
-                          {"target", {{"node", channel.node}, {"path", kPaths[static_cast<std::size_t>(channel.path)]}}}});
+      channels.push_back(
+          {{"sampler", samplers.size()},
+           {"target", {{"node", channel.node}, {"path", kPaths[static_cast<std::size_t>(channel.path)]}}}});
       samplers.push_back({{"input", input},
                           {"output", output},
                           {"interpolation", kInterpolations[static_cast<std::size_t>(channel.interpolation)]}});
@@ -483,7 +486,8 @@ void GlbWriter::add_maps(const Material& material, json& out) {
   add(material.occlusion, out, "occlusionTexture");
   add(material.emission, out, "emissiveTexture");
   if (material.normal.texture != kNoTexture) out["normalTexture"]["scale"] = exact(material.normal_scale);
-  if (material.occlusion.texture != kNoTexture) out["occlusionTexture"]["strength"] = exact(material.occlusion_strength);
+  if (material.occlusion.texture != kNoTexture)
+    out["occlusionTexture"]["strength"] = exact(material.occlusion_strength);
   if (material.ior != 1.5f) {
     out["extensions"]["KHR_materials_ior"]["ior"] = exact(material.ior);
     use_extension("KHR_materials_ior");
@@ -498,7 +502,8 @@ json GlbWriter::material_json(const Material& material) {
   pbr["metallicFactor"] = exact(material.metallic);
   pbr["roughnessFactor"] = exact(material.roughness);
   if (material.base_color_texture != kNoTexture) {
-    pbr["baseColorTexture"] = map_json(material.base_color_texture, material.base_color_sampler, material.base_color_uv);
+    pbr["baseColorTexture"] =
+        map_json(material.base_color_texture, material.base_color_sampler, material.base_color_uv);
   }
   // Factors end at 1; a power of two as strength keeps every bit.
   float strength = 1;

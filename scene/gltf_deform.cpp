@@ -13,7 +13,8 @@ constexpr double kWeightSumTolerance = 1e-5;
 const tinygltf::Accessor& checked(const Document& document, int accessor, int type, const char* type_name,
                                   std::uint64_t count, const std::string& label) {
   const tinygltf::Accessor& a = document.model.accessors.at(static_cast<std::size_t>(accessor));
-  if (a.type != type) fail(document.path, label + " has elements of the wrong type", std::string("expected ") + type_name);
+  if (a.type != type)
+    fail(document.path, label + " has elements of the wrong type", std::string("expected ") + type_name);
   if (a.count != count) {
     fail(document.path, label + " has " + std::to_string(a.count) + " elements",
          "expected " + std::to_string(count) + ", as many as there are positions");
@@ -52,8 +53,8 @@ void normalize_weights(Document& document, MeshPrimitive& mesh) {
   if (any_without) warn(document, "some vertices of a skin have no weights: they follow their first joint");
 }
 
-void read_joints(Document& document, const tinygltf::Primitive& primitive, std::uint64_t count, const std::string& label,
-                 MeshPrimitive& mesh) {
+void read_joints(Document& document, const tinygltf::Primitive& primitive, std::uint64_t count,
+                 const std::string& label, MeshPrimitive& mesh) {
   if (document.model.skins.empty()) return;
   std::vector<std::vector<float>> joints, weights;
   for (std::size_t set = 0;; ++set) {

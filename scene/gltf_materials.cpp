@@ -252,7 +252,8 @@ UvSource number_uv_sets(Document& document, Material& material) {
   std::sort(source.sets.begin(), source.sets.end());
   source.sets.erase(std::unique(source.sets.begin(), source.sets.end()), source.sets.end());
   if (source.sets.size() > 2) {
-    warn(document, "some materials use more than two sets of texture coordinates: the third and on are taken for the first");
+    warn(document,
+         "some materials use more than two sets of texture coordinates: the third and on are taken for the first");
     source.sets.resize(2);
   }
   for (UvMap* map : maps) map->set = source.sets.size() > 1 && map->set == source.sets[1] ? 1 : 0;

@@ -122,9 +122,9 @@ std::vector<T> expanded(const std::vector<T>& values, const std::vector<std::uin
 
 // One vertex a corner, so that each triangle has its own normal.
 void generate_flat_normals(Document& document, MeshPrimitive& mesh, const std::string& label) {
-  const std::uint64_t corner_bytes =
-      2 * sizeof(Vec3f) + (mesh.uvs.empty() ? 0 : sizeof(Vec2f)) + (mesh.uvs1.empty() ? 0 : sizeof(Vec2f)) +
-      (mesh.colors.empty() ? 0 : sizeof(Vec4f));
+  const std::uint64_t corner_bytes = 2 * sizeof(Vec3f) + (mesh.uvs.empty() ? 0 : sizeof(Vec2f)) +
+                                     (mesh.uvs1.empty() ? 0 : sizeof(Vec2f)) +
+                                     (mesh.colors.empty() ? 0 : sizeof(Vec4f));
   charge(document, mesh.indices.size() * corner_bytes, label);
   mesh.positions = expanded(mesh.positions, mesh.indices);
   mesh.uvs = expanded(mesh.uvs, mesh.indices);

@@ -67,8 +67,9 @@ class MotionReader {
     for (const int joint : from.joints) {
       const std::int32_t place = document_.node_places.at(static_cast<std::size_t>(joint));
       if (place == kNoIndex) {
-        wrong(label + " has joint " + label_of("nodes", static_cast<std::size_t>(joint)) + ", which is not in the scene",
-              "expected nodes of the scene that is drawn");
+        wrong(
+            label + " has joint " + label_of("nodes", static_cast<std::size_t>(joint)) + ", which is not in the scene",
+            "expected nodes of the scene that is drawn");
       }
       skin.joints.push_back(place);
     }
@@ -87,7 +88,8 @@ class MotionReader {
     const std::vector<float> values = read_floats(document_, accessor, 16, inner);
     for (std::size_t j = 0; j < skin.joints.size(); ++j) {
       const float* m = &values[16 * j];  // column-major
-      if (std::fabs(m[3]) > 1e-3f || std::fabs(m[7]) > 1e-3f || std::fabs(m[11]) > 1e-3f || std::fabs(m[15] - 1) > 1e-3f) {
+      if (std::fabs(m[3]) > 1e-3f || std::fabs(m[7]) > 1e-3f || std::fabs(m[11]) > 1e-3f ||
+          std::fabs(m[15] - 1) > 1e-3f) {
         wrong(inner + "[" + std::to_string(j) + "] has a projective part", "expected 0 0 0 1 as its last row");
       }
       for (int r = 0; r < 3; ++r) {
@@ -188,8 +190,9 @@ class MotionReader {
     }
     for (const Channel& other : animation.channels) {
       if (other.node == channel.node && other.path == channel.path) {
-        wrong(label + " moves the " + file_channel.target_path + " of " + label_of("nodes", file_node) + " a second time",
-              "expected one channel for it in an animation");
+        wrong(
+            label + " moves the " + file_channel.target_path + " of " + label_of("nodes", file_node) + " a second time",
+            "expected one channel for it in an animation");
       }
     }
     const int mesh = document_.model.nodes[file_node].mesh;
@@ -229,7 +232,8 @@ class MotionReader {
     if (a.type != type || (a.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !may_normalize)) {
       wrong(label + ".output has elements of the wrong type",
             of_weights ? "expected SCALAR of floats or normalized integers"
-                       : rotates ? "expected VEC4 of floats or normalized integers" : "expected VEC3 of floats");
+            : rotates  ? "expected VEC4 of floats or normalized integers"
+                       : "expected VEC3 of floats");
     }
     const std::uint64_t groups = channel.interpolation == Interpolation::kCubicSpline ? 3 : 1;
     const std::uint64_t expected = channel.times_s.size() * groups * (of_weights ? weights : 1);

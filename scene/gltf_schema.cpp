@@ -14,10 +14,10 @@ constexpr std::uint64_t kMaxIndex = 0x7FFFFFFF;
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 40;
 
 // Read at all, and enough of each to draw what it asks for.
-constexpr const char* kSupportedExtensions[] = {"EXT_mesh_gpu_instancing", "KHR_lights_punctual",
-                                                "KHR_materials_emissive_strength", "KHR_materials_ior",
-                                                "KHR_materials_unlit", "KHR_mesh_quantization",
-                                                "KHR_texture_transform"};
+constexpr const char* kSupportedExtensions[] = {
+    "EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_unlit", "KHR_mesh_quantization",
+    "KHR_texture_transform"};
 
 bool is_supported(const std::string& name) {
   return std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions), name) !=

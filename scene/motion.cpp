@@ -84,7 +84,8 @@ void update_geometry(RenderScene& out, const Pose& pose, ThreadPool* pool) {
     MovingDrawable& d = m.drawables[i];
     deformers.emplace_back(m.scene, pose, d.node, primitive_of(m.scene, d));
     if (deformers[i].mirrored() != d.mirrored) turn_triangles(g, d);
-    for (std::uint32_t c = 0; c < d.chunk_count; ++c) jobs.push_back({static_cast<std::uint32_t>(i), d.first_chunk + c});
+    for (std::uint32_t c = 0; c < d.chunk_count; ++c)
+      jobs.push_back({static_cast<std::uint32_t>(i), d.first_chunk + c});
   }
   const auto work = [&](std::size_t j, int) {
     const Job job = jobs[j];
@@ -125,7 +126,8 @@ void update_lights(RenderScene& out) {
 
 namespace building {
 
-bool drawable_moves(const Scene& scene, const std::vector<char>& node_moves, std::size_t node, const MeshPrimitive& mesh) {
+bool drawable_moves(const Scene& scene, const std::vector<char>& node_moves, std::size_t node,
+                    const MeshPrimitive& mesh) {
   if (node_moves.empty()) return false;
   if ((node_moves[node] & kShapeMoves) != 0 && !mesh.targets.empty()) return true;
   if (!is_skinned(scene.nodes[node], mesh)) return place_moves(node_moves, node);

@@ -11,7 +11,8 @@ namespace shoal::building {
 
 // Does this primitive of this node change its vertices in the world?
 //   node_moves  of moving_nodes
-bool drawable_moves(const Scene& scene, const std::vector<char>& node_moves, std::size_t node, const MeshPrimitive& mesh);
+bool drawable_moves(const Scene& scene, const std::vector<char>& node_moves, std::size_t node,
+                    const MeshPrimitive& mesh);
 
 // Appends a drawable whose vertices will be written again.
 //   mesh  with the file's winding, mirrored or not

@@ -21,17 +21,17 @@ inline constexpr std::int32_t kNoIndex = -1;
 // A triangle list in the mesh's local space; one material.
 struct MeshPrimitive {
   std::vector<Vec3f> positions;
-  std::vector<Vec3f> normals;  // unit, one a vertex; never empty: the loader generates missing ones (flat)
-  std::vector<Vec2f> uvs;      // empty or one a vertex
-  std::vector<Vec4f> colors;   // empty or one a vertex: linear RGBA
-  std::vector<Vec2f> uvs1;     // empty, or one a vertex where the material reads a second set
-  std::vector<Vec4f> tangents; // empty, or one a vertex where the material has a normal map: unit, w 1 or -1
+  std::vector<Vec3f> normals;          // unit, one a vertex; never empty: the loader generates missing ones (flat)
+  std::vector<Vec2f> uvs;              // empty or one a vertex
+  std::vector<Vec4f> colors;           // empty or one a vertex: linear RGBA
+  std::vector<Vec2f> uvs1;             // empty, or one a vertex where the material reads a second set
+  std::vector<Vec4f> tangents;         // empty, or one a vertex where the material has a normal map: unit, w 1 or -1
   std::vector<std::uint32_t> indices;  // three a triangle, each < positions.size()
   std::int32_t material = 0;           // always valid: a default material is appended where the file has none
 
-  std::uint32_t influences = 0;        // joints a vertex; 0 where no skin can move the mesh
-  std::vector<std::uint16_t> joints;   // into Skin::joints, `influences` a vertex
-  std::vector<float> weights;          // the same, 0 or more, of sum 1
+  std::uint32_t influences = 0;       // joints a vertex; 0 where no skin can move the mesh
+  std::vector<std::uint16_t> joints;  // into Skin::joints, `influences` a vertex
+  std::vector<float> weights;         // the same, 0 or more, of sum 1
   std::vector<MorphTarget> targets;
   bool flat_normals = false;  // deformed, and without normals in the file: each triangle's own, at every time. Each
                               // corner has a vertex of its own then: indices count up from 0
@@ -44,15 +44,15 @@ struct Mesh {
 // As the camera object of a file: its place comes from its node (it looks along the node's -z, +y up).
 struct CameraSpec {
   bool orthographic = false;
-  float yfov = 1.0472f;            // radians, perspective
-  float xmag = 1, ymag = 1;        // metres, orthographic
-  float znear = 0.05f, zfar = 0;   // zfar 0: none given (infinite)
+  float yfov = 1.0472f;           // radians, perspective
+  float xmag = 1, ymag = 1;       // metres, orthographic
+  float znear = 0.05f, zfar = 0;  // zfar 0: none given (infinite)
 };
 
 // `extras.water` of a node, as given (DESIGN.md 4). Flat keys such as `water_ior` land here too.
 struct WaterSpec {
   bool has_size = false;
-  float size_x = 0, size_z = 0;    // metres, centred on the node
+  float size_x = 0, size_z = 0;  // metres, centred on the node
   bool has_depth = false;
   float depth = 0;
   float ior = 1.333f;
@@ -67,7 +67,7 @@ struct LightSpec {
   Vec3f color{1, 1, 1};
   float intensity = 1;  // directional: lux; point, spot: candela
   LightKind kind = LightKind::kDirectional;
-  float range_m = 0;                        // point, spot: nothing is lit beyond; 0: no end
+  float range_m = 0;                              // point, spot: nothing is lit beyond; 0: no end
   float inner_cone = 0, outer_cone = 0.7853982f;  // spot, radians off the axis: full light within, none beyond
 };
 
@@ -142,7 +142,8 @@ RenderScene build_render_scene(const Scene& scene);
 // alone, not on the times before.
 //   time_s  finite; before the first and after the last key of a channel its end stands
 //   pool    the vertices' work is shared out on it; null: this thread does it
-// Throws Error where a moving vertex is not finite, and for a moving camera or body of water whose transform degenerates.
+// Throws Error where a moving vertex is not finite, and for a moving camera or body of water whose transform
+// degenerates.
 void update_render_scene(RenderScene& scene, double time_s, ThreadPool* pool = nullptr);
 
 // The camera of the scene where it is at a time. A camera whose node does not move is returned as it is.

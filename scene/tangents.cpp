@@ -130,9 +130,8 @@ void generate_tangents(MeshPrimitive& mesh, const std::vector<Vec2f>& uvs) {
       const std::uint32_t v = corner[k];
       const Vec3d n = to_double(mesh.normals[v]);
       const Vec3d across = unit(face.direction - n * dot(face.direction, n));
-      const double angle =
-          angle_at(to_double(mesh.positions[v]), to_double(mesh.positions[corner[(k + 2) % 3]]),
-                   to_double(mesh.positions[corner[(k + 1) % 3]]), n);
+      const double angle = angle_at(to_double(mesh.positions[v]), to_double(mesh.positions[corner[(k + 2) % 3]]),
+                                    to_double(mesh.positions[corner[(k + 1) % 3]]), n);
       const std::size_t at = 2 * std::size_t{group[v]} + static_cast<std::size_t>(face.side);
       sum[at] = sum[at] + across * angle;
       has[at] = 1;
@@ -146,7 +145,9 @@ void generate_tangents(MeshPrimitive& mesh, const std::vector<Vec2f>& uvs) {
     const std::uint32_t v = mesh.indices[i];
     const std::size_t first = 2 * std::size_t{group[v]};
     const int face_side = sides[i / 3];
-    const std::size_t side = face_side != 2 ? static_cast<std::size_t>(face_side) : !has[first] && has[first + 1] ? 1u : 0u;
+    const std::size_t side = face_side != 2                  ? static_cast<std::size_t>(face_side)
+                             : !has[first] && has[first + 1] ? 1u
+                                                             : 0u;
     std::uint32_t& to = place[2 * std::size_t{v} + side];
     if (to == kNone) {
       if (place[2 * std::size_t{v} + 1 - side] == kNone) {

@@ -29,8 +29,8 @@ struct WaterBody {
   Vec3f axis_z{0, 0, 1};
   // Outline on the plane: a triangle list of world positions, counter-clockwise seen from +normal.
   std::vector<Vec3f> outline;
-  float depth_m = 0;                           // reach below the plane; the camera is in the water inside of it
-  float ior = 1.333f;                          // 1/3 to 3
+  float depth_m = 0;                            // reach below the plane; the camera is in the water inside of it
+  float ior = 1.333f;                           // 1/3 to 3
   Vec3f absorption_per_m{0.35f, 0.07f, 0.03f};  // Beer-Lambert
   SurfaceSettings surface;
 };

@@ -8,9 +8,9 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 template <class F>
 struct Refraction {
-  Vec3<F> direction;   // unit; where not valid, along the surface
-  F cos_transmitted;   // >= 0; 0 where not valid
-  MaskOf<F> valid;     // not totally reflected
+  Vec3<F> direction;  // unit; where not valid, along the surface
+  F cos_transmitted;  // >= 0; 0 where not valid
+  MaskOf<F> valid;    // not totally reflected
 };
 
 // Square of the transmitted cosine; negative beyond the critical angle.

@@ -24,7 +24,7 @@ namespace shoal {
 
 // One plane seen from one eye. Plain data, made by make_broad_phase.
 struct BroadPhase {
-  Vec3f eye_world;         // orthographic: the camera's position, on the frame's plane
+  Vec3f eye_world;  // orthographic: the camera's position, on the frame's plane
   Vec3f plane_origin;
   Vec3f normal;            // the body's, unit
   Vec3f far_normal;        // +-normal, towards the side that the eye is not on
@@ -37,9 +37,9 @@ struct BroadPhase {
   // nothing of the far side shows: far_side_visible is false and the map the identity.
   float far_scale = 1;
   bool far_side_visible = true;
-  Vec3f view_direction;     // unit
-  float view_cosine = 1;    // dot(view_direction, far_normal); perspective: unused
-  float px_per_unit = 1;    // pixels a metre at view depth 1 (perspective), or anywhere (orthographic)
+  Vec3f view_direction;   // unit
+  float view_cosine = 1;  // dot(view_direction, far_normal); perspective: unused
+  float px_per_unit = 1;  // pixels a metre at view depth 1 (perspective), or anywhere (orthographic)
   float near_m = 0.05f;
   PathConstants path;
 };
@@ -48,7 +48,7 @@ struct BroadPhase {
 template <class F>
 struct PointPath {
   Vec3<F> virtual_world;
-  Vec3<F> crossing_world;  // on the plane; the point itself where it is on the eye's side
+  Vec3<F> crossing_world;    // on the plane; the point itself where it is on the eye's side
   F eye_side_m, far_side_m;  // lengths on either side; 0 on the far one where the point is on the eye's side
 };
 
@@ -184,7 +184,7 @@ SHOAL_INLINE F edge_deviation_px(const BroadPhase& bp, const View& view, Vec3<F>
   }
   // Where the edge goes through the plane.
   const F ha = far_distance(bp, a), hb = far_distance(bp, b);
-  const MaskOf<F> one_below = min(ha, hb) < F(0.0f), one_above = max(ha, hb) > F(0.0f);
+  const MaskOf<F> one_below = min(ha, hb)<F(0.0f), one_above = max(ha, hb)> F(0.0f);
   const MaskOf<F> through = one_below & one_above;
   if (any(through)) {
     const F sum = select(through, abs(ha) + abs(hb), F(1.0f));

@@ -18,10 +18,10 @@ namespace shoal {
 
 // What the solver needs to know of one pair of media, computed once (path_constants).
 struct PathConstants {
-  float ior = 1;      // n_water / n_air
-  float ratio = 1;    // r = max(ior, 1 / ior)
-  float m = 0;        // r^2 - 1
-  float sqrt_m = 0;   // tangent of the dense side's critical angle is 1 / sqrt_m
+  float ior = 1;     // n_water / n_air
+  float ratio = 1;   // r = max(ior, 1 / ior)
+  float m = 0;       // r^2 - 1
+  float sqrt_m = 0;  // tangent of the dense side's critical angle is 1 / sqrt_m
   float inv_ratio = 1, inv_sqrt_m = 0;
   bool identity = true;        // ior is 1
   bool water_is_thin = false;  // ior below 1

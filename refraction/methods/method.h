@@ -31,12 +31,14 @@ struct MethodStages {
   static void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
     const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
     for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
-      const WideM here = (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
+      const WideM here =
+          (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
       if (none(here)) return;
       const WaterRays<WideF> rays = M::template rays<WideF>(water, block_rays(f.view, block), differential);
       const WideI x = WideI(block.x_px) + block_x(), y = WideI(block.y_px) + block_y();
       const WideI own = WideI::load(f.refracted.id.data() + block.offset);
-      const WideI id = confirm_hit(f.geometry, f.refracted, rays.refracted, own, x, y, here & rays.at_surface.transmitted);
+      const WideI id =
+          confirm_hit(f.geometry, f.refracted, rays.refracted, own, x, y, here & rays.at_surface.transmitted);
       store_masked(f.hits.refracted_id.data() + block.offset, id, here);
       if (!mirrors_scene(water.optics)) return;
       const WideI mirrored = WideI::load(f.mirrored.id.data() + block.offset);
@@ -47,9 +49,7 @@ struct MethodStages {
 
   static void shade(FrameData& f, std::size_t region) { shade_region<M>(f, region); }
 
-  static constexpr MethodKernels kernels() {
-    return {&M::map, &refracted_alpha, &narrow, &shade};
-  }
+  static constexpr MethodKernels kernels() { return {&M::map, &refracted_alpha, &narrow, &shade}; }
 };
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -26,8 +26,8 @@ struct None {
 }  // namespace
 
 Method none() {
-  return {"none", "rays go straight through the water; same surface, Fresnel and absorption", "Liu et al. 2020, Table 3",
-          MethodStages<None>::kernels()};
+  return {"none", "rays go straight through the water; same surface, Fresnel and absorption",
+          "Liu et al. 2020, Table 3", MethodStages<None>::kernels()};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

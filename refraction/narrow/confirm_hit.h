@@ -12,7 +12,7 @@ namespace shoal::inline SHOAL_ISA_NS {
 //   x_px, y_px  of the pixels; lanes: which of them
 // Returns the triangle that the ray meets: the pixel's own where that holds, else the nearest that holds among the
 // eight neighbours', else the pixel's own after all (its point is then brought into the triangle: resolve.h).
-WideI confirm_hit(const GeometryView& g, const VisibilityBuffer& visibility, const Ray<WideF>& ray, WideI own, WideI x_px,
-                  WideI y_px, WideM lanes);
+WideI confirm_hit(const GeometryView& g, const VisibilityBuffer& visibility, const Ray<WideF>& ray, WideI own,
+                  WideI x_px, WideI y_px, WideM lanes);
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -10,7 +10,7 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 template <class F>
 struct ExactRay {
-  F t;                    // of the crossing along the view ray, in its direction's lengths (perspective: view depth)
+  F t;  // of the crossing along the view ray, in its direction's lengths (perspective: view depth)
   Vec3<F> crossing_world;
   Vec3<F> incident;       // unit, the view ray's direction
   Vec3<F> normal;         // the plane's, unit, against the ray

@@ -14,9 +14,17 @@ namespace shoal_test {
 using namespace shoal;
 
 inline GeometryView view_of(const Geometry& g, const Materials& m) {
-  return {g.x_world.data(), g.y_world.data(), g.z_world.data(), {g.corner0.data(), g.corner1.data(), g.corner2.data()},
-          g.chunks.data(), g.vertices.data(), g.colors.empty() ? nullptr : g.colors.data(), g.triangles.data(),
-          m.materials.data(), m.textures.data(), g.uvs1.empty() ? nullptr : g.uvs1.data(),
+  return {g.x_world.data(),
+          g.y_world.data(),
+          g.z_world.data(),
+          {g.corner0.data(), g.corner1.data(), g.corner2.data()},
+          g.chunks.data(),
+          g.vertices.data(),
+          g.colors.empty() ? nullptr : g.colors.data(),
+          g.triangles.data(),
+          m.materials.data(),
+          m.textures.data(),
+          g.uvs1.empty() ? nullptr : g.uvs1.data(),
           g.tangents.empty() ? nullptr : g.tangents.data()};
 }
 

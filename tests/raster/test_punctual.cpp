@@ -56,10 +56,12 @@ TEST_CASE("falloff of point and spot lights is the extension's formula") {
     int lit = 0, dark = 0;
     double worst = 0;
     for (int i = 0; i < 4000; ++i) {
-      const Vec3f point{static_cast<float>(between(-5, 7)), static_cast<float>(between(-4, 4)), static_cast<float>(between(-6, 0))};
+      const Vec3f point{static_cast<float>(between(-5, 7)), static_cast<float>(between(-4, 4)),
+                        static_cast<float>(between(-6, 0))};
       Vec3f to_light;
       const float got = punctual_falloff<float>(light, point, to_light);
-      const double expected = formula(to_double(position), to_double(axis), to_double(point), c.range, c.inner, c.outer);
+      const double expected =
+          formula(to_double(position), to_double(axis), to_double(point), c.range, c.inner, c.outer);
       const Vec3d way = to_double(position) - to_double(point);
       const double brightest = 1 / dot(way, way);
       // A narrow cone's slope magnifies the cosine's rounding.

@@ -92,7 +92,8 @@ TEST_CASE("a mapped normal is the tangent frame's, against double") {
     const Vec3f got = mapped_normal<float>(n, t, h, texel, scale);
     const Vec3d nd = widen(n), td = unit(widen(t));
     const Vec3d b = cross(nd, td) * double{h};
-    const Vec3d want = unit(td * ((2.0 * texel.x - 1) * scale) + b * ((2.0 * texel.y - 1) * scale) + nd * (2.0 * texel.z - 1));
+    const Vec3d want =
+        unit(td * ((2.0 * texel.x - 1) * scale) + b * ((2.0 * texel.y - 1) * scale) + nd * (2.0 * texel.z - 1));
     const Vec3d off = widen(got) - want;
     worst = std::max(worst, std::sqrt(dot(off, off)));
   }
@@ -155,7 +156,8 @@ TEST_CASE("a map reads its own set of coordinates, turned and scaled as KHR_text
   // A quarter turn takes (u, v) to (v, -u): (0.75, -0.25), then 0 on u and 1 on v is added.
   f.material.occlusion.uv = make_uv_map(1, {0, 1}, 1.57079632679f, {1, 1});
   CHECK(extract(f.run().occlusion, 0) == Approx(40 / 255.0).epsilon(1e-3));
-  const UvPoint<float> p = transform_uv<float>(make_uv_map(0, {0.5f, 2}, 1.57079632679f, {2, 4}), {{1, 1}, {1, 0}, {0, 1}});
+  const UvPoint<float> p =
+      transform_uv<float>(make_uv_map(0, {0.5f, 2}, 1.57079632679f, {2, 4}), {{1, 1}, {1, 0}, {0, 1}});
   CHECK(p.uv.x == Approx(4.5));
   CHECK(p.uv.y == Approx(0).margin(1e-6));
   CHECK(p.duv_dx.y == Approx(-2));

@@ -35,7 +35,8 @@ Scene swaying_box() {
       Channel c;
       c.node = static_cast<std::int32_t>(n);
       c.times_s = {0, 2};
-      const float x = node.world_from_local.m[0][3], y = node.world_from_local.m[1][3], z = node.world_from_local.m[2][3];
+      const float x = node.world_from_local.m[0][3], y = node.world_from_local.m[1][3],
+                  z = node.world_from_local.m[2][3];
       c.values = {x, y, z, node.water != kNoIndex ? x : x + 0.25f, y - 0.125f, z};
       sway.channels.push_back(c);
     }
@@ -48,7 +49,8 @@ Scene swaying_box() {
 Scene frozen(const Scene& moving, double time_s) {
   Scene still = moving;
   const Pose pose = pose_scene(moving, time_s);
-  for (std::size_t n = 0; n < still.nodes.size(); ++n) still.nodes[n].world_from_local = narrow(pose.world_from_local[n]);
+  for (std::size_t n = 0; n < still.nodes.size(); ++n)
+    still.nodes[n].world_from_local = narrow(pose.world_from_local[n]);
   still.animations.clear();
   still.locals.clear();
   return still;

@@ -56,8 +56,8 @@ struct Scene {
   BroadPhase bp;
 };
 Scene random_scene(Random& random, int k) {
-  const Vec3f normal = (k & 1) != 0 ? Vec3f{0, 1, 0}
-                                    : normalize(Vec3f{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)});
+  const Vec3f normal =
+      (k & 1) != 0 ? Vec3f{0, 1, 0} : normalize(Vec3f{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)});
   const Vec3f origin = {random.in(-3, 3), random.in(-3, 3), random.in(-3, 3)};
   const float height = random.log_in(0.05f, 20.0f);
   const Vec3f eye = origin + normal * ((k & 2) != 0 ? -height : height);
@@ -102,8 +102,7 @@ TEST_CASE("a view ray meets the plane, refracts and reflects as in double", "[re
       REQUIRE(got.reflectance == 1.0f);
       continue;
     }
-    direction_error =
-        std::max(direction_error, norm(to_double(got.refracted) - want.refracted) * want.cos_transmitted);
+    direction_error = std::max(direction_error, norm(to_double(got.refracted) - want.refracted) * want.cos_transmitted);
     const double ci = want.cos_incident, ct = want.cos_transmitted;
     const double rs = (eta * ci - ct) / (eta * ci + ct), rp = (ci - eta * ct) / (ci + eta * ct);
     REQUIRE(got.reflectance == Approx(0.5 * (rs * rs + rp * rp)).margin(4e-6 / ct));
@@ -249,10 +248,9 @@ TEST_CASE("ray against triangle, and its screen derivatives", "[refraction]") {
     const Vec3d by_x = derivative([&](double at) { return exact(view_ray(s.view, at, y)); }, x);
     const Vec3d by_y = derivative([&](double at) { return exact(view_ray(s.view, x, at)); }, y);
     const double largest = std::max({std::fabs(by_x.y), std::fabs(by_x.z), std::fabs(by_y.y), std::fabs(by_y.z)});
-    const double off = std::max({std::fabs(static_cast<double>(slope.u_dx) - by_x.y),
-                                 std::fabs(static_cast<double>(slope.v_dx) - by_x.z),
-                                 std::fabs(static_cast<double>(slope.u_dy) - by_y.y),
-                                 std::fabs(static_cast<double>(slope.v_dy) - by_y.z)});
+    const double off = std::max(
+        {std::fabs(static_cast<double>(slope.u_dx) - by_x.y), std::fabs(static_cast<double>(slope.v_dx) - by_x.z),
+         std::fabs(static_cast<double>(slope.u_dy) - by_y.y), std::fabs(static_cast<double>(slope.v_dy) - by_y.z)});
     slope_error = std::max(slope_error, off / largest * facing * facing * sharpness);
   }
   CAPTURE(point_error, barycentric_error, slope_error, checked);
@@ -270,8 +268,8 @@ TEST_CASE("triangles that a ray cannot meet give no hit and no NaN", "[refractio
     const TriangleHitDerivatives<float> slope = hit_derivatives(ray, start, p0, e1, e2, hit);
     return !hit.valid && hit.t == 0.0f && hit.u == 0.0f && hit.v == 0.0f && slope.u_dx == 0.0f && slope.v_dy == 0.0f;
   };
-  CHECK(none({1, 0, -1}, {0, 1, 0}, {0, 0, 1}));            // edge-on
-  CHECK(none({0, 0, -1}, {0, 0, 0}, {0, 1, 0}));            // degenerate
+  CHECK(none({1, 0, -1}, {0, 1, 0}, {0, 0, 1}));                // edge-on
+  CHECK(none({0, 0, -1}, {0, 0, 0}, {0, 1, 0}));                // degenerate
   CHECK(none({1e30f, 0, -1}, {1e-20f, 0, 0}, {0, 1e-20f, 0}));  // beyond float
   const TriangleHit<float> behind = intersect_triangle(ray, {0, 0, 2}, {1, 0, 0}, {0, 1, 0});
   CHECK(behind.valid);

@@ -142,8 +142,9 @@ TEST_CASE("the solver is monotone where the broad phase needs it", "[refraction]
 }
 
 TEST_CASE("no finite input gives a NaN, and lanes give the bits of scalars", "[refraction]") {
-  const std::vector<float> lengths = {0.0f,  1e-45f, 1e-38f, 1e-30f, 1e-20f, 1e-10f, 1e-3f, 1.0f,
-                                      2.28f, 1e3f,   1e10f,  1e20f,  1e30f,  3e38f,  std::numeric_limits<float>::max()};
+  const std::vector<float> lengths = {0.0f,   1e-45f, 1e-38f, 1e-30f, 1e-20f,
+                                      1e-10f, 1e-3f,  1.0f,   2.28f,  1e3f,
+                                      1e10f,  1e20f,  1e30f,  3e38f,  std::numeric_limits<float>::max()};
   for (const float ior : {1.0f / 3.0f, 0.9999999f, 1.0f, 1.0000001f, 1.333f, 3.0f}) {
     const PathConstants constants = path_constants(ior);
     for (const bool eye_is_thin : {true, false}) {

@@ -20,7 +20,10 @@ Vec3d unit(Vec3d v) { return v * (1.0 / std::sqrt(dot(v, v))); }
 // Columns right, up, back; at a place.
 Mat4 frame(Vec3d x, Vec3d y, Vec3d z, Vec3d at) {
   const auto f = [](double v) { return static_cast<float>(v); };
-  return {{{f(x.x), f(y.x), f(z.x), f(at.x)}, {f(x.y), f(y.y), f(z.y), f(at.y)}, {f(x.z), f(y.z), f(z.z), f(at.z)}, {0, 0, 0, 1}}};
+  return {{{f(x.x), f(y.x), f(z.x), f(at.x)},
+           {f(x.y), f(y.y), f(z.y), f(at.y)},
+           {f(x.z), f(y.z), f(z.z), f(at.z)},
+           {0, 0, 0, 1}}};
 }
 // Looks or shines from `at` towards `to`.
 Mat4 aimed(Vec3d at, Vec3d to) {
@@ -29,7 +32,8 @@ Mat4 aimed(Vec3d at, Vec3d to) {
 }
 Mat4 turned(double degrees, Vec3d scale, Vec3d at) {
   const double a = degrees * 3.14159265358979 / 180, c = std::cos(a), s = std::sin(a);
-  return frame(Vec3d{c, s * 0.6, s * 0.8} * scale.x, Vec3d{-s, c * 0.6, c * 0.8} * scale.y, Vec3d{0, -0.8, 0.6} * scale.z, at);
+  return frame(Vec3d{c, s * 0.6, s * 0.8} * scale.x, Vec3d{-s, c * 0.6, c * 0.8} * scale.y,
+               Vec3d{0, -0.8, 0.6} * scale.z, at);
 }
 
 // A box from -1 to 1, each side with corners of its own.
@@ -41,7 +45,9 @@ Mesh box_mesh() {
       for (int corner = 0; corner < 4; ++corner) {
         const float u = corner == 1 || corner == 2 ? 1.0f : -1.0f, v = corner >= 2 ? 1.0f : -1.0f;
         const std::array<float, 3> local = {side, u * side, v};
-        const auto place = [&](std::array<float, 3> c) { return Vec3f{c[(3 - axis) % 3], c[(4 - axis) % 3], c[(5 - axis) % 3]}; };
+        const auto place = [&](std::array<float, 3> c) {
+          return Vec3f{c[(3 - axis) % 3], c[(4 - axis) % 3], c[(5 - axis) % 3]};
+        };
         p.positions.push_back(place(local));
         p.normals.push_back(place({side, 0, 0}));
       }
@@ -105,8 +111,8 @@ FrameSettings settings_of(Shadows shadows) {
   s.shadows = shadows;
   s.shadow_map_px = 2048;
   s.keep_linear = true;
-  s.aovs = 1u << int(Aov::kPosition) | 1u << int(Aov::kIdTriangle) | 1u << int(Aov::kHitKind) | 1u << int(Aov::kHitPosition) |
-           1u << int(Aov::kHitId);
+  s.aovs = 1u << int(Aov::kPosition) | 1u << int(Aov::kIdTriangle) | 1u << int(Aov::kHitKind) |
+           1u << int(Aov::kHitPosition) | 1u << int(Aov::kHitId);
   return s;
 }
 
@@ -227,7 +233,7 @@ TEST_CASE("a shear takes bent sunlight to straight") {
     CHECK(std::sqrt(dot(turn, turn)) < 3e-7);
   }
   body.ior = 1.333f;
-  CHECK(!bend_of(body, body.normal).bent);   // lit from below
+  CHECK(!bend_of(body, body.normal).bent);  // lit from below
   body.ior = 1;
   CHECK(!bend_of(body, -body.normal).bent);  // no water
 }

@@ -31,7 +31,9 @@ inline Vec3d point(const Matrix& m, Vec3d p) {
   const auto row = [&](std::size_t r) { return m[r][0] * p.x + m[r][1] * p.y + m[r][2] * p.z + m[r][3]; };
   return {row(0), row(1), row(2)};
 }
-inline Vec3d as_double(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+inline Vec3d as_double(Vec3f v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
 
 inline Quaternion unit(Quaternion q) {
   const double n = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
@@ -170,7 +172,8 @@ inline double worst_position(const Scene& scene, const RenderScene& render, cons
   double worst = 0;
   double extent = 0;
   for (const Drawable& d : render.geometry.drawables) {
-    const MeshPrimitive& mesh = scene.meshes[static_cast<std::size_t>(scene.nodes[d.node].mesh)].primitives[d.primitive];
+    const MeshPrimitive& mesh =
+        scene.meshes[static_cast<std::size_t>(scene.nodes[d.node].mesh)].primitives[d.primitive];
     for (std::size_t t = 0; t < d.triangle_count; ++t) {
       const Geometry::TriangleRecord& triangle = render.geometry.triangles[d.first_triangle + t];
       for (std::size_t k = 0; k < 3; ++k) {

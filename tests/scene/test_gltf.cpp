@@ -292,9 +292,7 @@ TEST_CASE("gltf: the base colour's coordinate set and its transform", "[gltf]") 
   const MeshPrimitive& mesh = scene.meshes[0].primitives[0];
   const UvMap& map = scene.materials.materials[0].base_color_uv;
   CHECK((map.set == 0 && mesh.uvs1.empty()));  // the only set that is used is the first
-  const auto moved = [&](std::size_t i) {
-    return transform_uv<float>(map, {mesh.uvs[i], {0, 0}, {0, 0}}).uv;
-  };
+  const auto moved = [&](std::size_t i) { return transform_uv<float>(map, {mesh.uvs[i], {0, 0}, {0, 0}}).uv; };
   CHECK(moved(0).x == Approx(0.5).margin(1e-6));
   CHECK(moved(0).y == Approx(2 - 2).margin(1e-6));
   CHECK(moved(1).x == Approx(0.5 + 4).margin(1e-6));

@@ -23,7 +23,8 @@ CraftedFile moving_file() {
   file.add_accessor(joints, sizeof joints, 5121, "VEC4", 3);
   file.add_floats({1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 2, 0, 0, 0}, "VEC4", 4);
   file.add_floats({0, 0, 1, 0, 0, 2, 0, 0, 3}, "VEC3", 3);
-  file.add_floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}, "MAT4", 16);
+  file.add_floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1},
+                  "MAT4", 16);
   file.add_floats({0, 0.5f, 2}, "SCALAR", 1);
   file.add_floats({0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}, "VEC4", 4);
   file.add_floats({0, 1, 0.25f}, "SCALAR", 1);
@@ -47,12 +48,12 @@ CraftedFile moving_file() {
         {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", 11}, {"ROTATION", 12}, {"SCALE", 13}}}}}}}});
   root["scenes"][0]["nodes"] = {0, 1, 2, 3, 4, 6};
   root["extensionsUsed"].push_back("EXT_mesh_gpu_instancing");
-  root["animations"] = json::array({json{
-      {"name", "wave"},
-      {"samplers", {{{"input", 8}, {"output", 9}}, {{"input", 8}, {"output", 10}, {"interpolation", "STEP"}}}},
-      {"channels",
-       {{{"sampler", 0}, {"target", {{"node", 5}, {"path", "rotation"}}}},
-        {{"sampler", 1}, {"target", {{"node", 6}, {"path", "weights"}}}}}}}});
+  root["animations"] = json::array(
+      {json{{"name", "wave"},
+            {"samplers", {{{"input", 8}, {"output", 9}}, {{"input", 8}, {"output", 10}, {"interpolation", "STEP"}}}},
+            {"channels",
+             {{{"sampler", 0}, {"target", {{"node", 5}, {"path", "rotation"}}}},
+              {{"sampler", 1}, {"target", {{"node", 6}, {"path", "weights"}}}}}}}});
   return file;
 }
 
@@ -146,10 +147,7 @@ std::vector<Recipe> morph_recipes() {
        [](CraftedFile& f) {
          f.root["nodes"][6]["weights"] = {0, 1, 2};
        }},
-      {"weight_huge", "-1e6 and 1e6",
-       [](CraftedFile& f) {
-         f.root["nodes"][6]["weights"] = {1e30};
-       }},
+      {"weight_huge", "-1e6 and 1e6", [](CraftedFile& f) { f.root["nodes"][6]["weights"] = {1e30}; }},
   };
 }
 
@@ -161,8 +159,7 @@ std::vector<Recipe> animation_recipes() {
       {"times_type", "SCALAR", [](CraftedFile& f) { wave(f)["samplers"][0]["input"] = 9; }},
       {"output_count", "expected 3 for 3 keys", [](CraftedFile& f) { f.root["accessors"][9]["count"] = 2; }},
       {"output_type", "VEC4", [](CraftedFile& f) { wave(f)["samplers"][0]["output"] = 0; }},
-      {"output_raw_integers", "normalized integers",
-       [](CraftedFile& f) { wave(f)["samplers"][0]["output"] = 4; }},
+      {"output_raw_integers", "normalized integers", [](CraftedFile& f) { wave(f)["samplers"][0]["output"] = 4; }},
       {"output_nan", "NaN", [=](CraftedFile& f) { set_float(f, 9, 0, nan); }},
       {"spline_count", "expected 9 for 3 keys",
        [](CraftedFile& f) { wave(f)["samplers"][0]["interpolation"] = "CUBICSPLINE"; }},
@@ -245,7 +242,8 @@ TEST_CASE("gltf: what moves comes back from a .glb as it was", "[gltf][export]")
     CHECK(back.nodes[n].morph_weights == scene.nodes[n].morph_weights);
     for (std::size_t i = 0; i < 4; ++i) CHECK(back.locals[n].rotation[i] == scene.locals[n].rotation[i]);
     for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 4; ++c) CHECK(back.nodes[n].world_from_local.m[r][c] == scene.nodes[n].world_from_local.m[r][c]);
+      for (int c = 0; c < 4; ++c)
+        CHECK(back.nodes[n].world_from_local.m[r][c] == scene.nodes[n].world_from_local.m[r][c]);
     }
   }
   REQUIRE(back.meshes.size() == 2);

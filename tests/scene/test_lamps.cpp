@@ -49,7 +49,9 @@ TEST_CASE("lamps: a spot's axis and cone", "[gltf][light]") {
   CHECK(lamp.direction_world.y == Approx(-1).epsilon(1e-6));
   CHECK(lamp.inverse_range2 == 0.0f);
   // Full at the inner angle, none at the outer one, and linear in the cosine between them before it is squared.
-  const auto across = [&](double angle) { return std::cos(angle) * double(lamp.cone_scale) + double(lamp.cone_offset); };
+  const auto across = [&](double angle) {
+    return std::cos(angle) * double(lamp.cone_scale) + double(lamp.cone_offset);
+  };
   CHECK(across(0.25) == Approx(1).epsilon(1e-5));
   CHECK(across(0.75) == Approx(0).margin(1e-5));
   CHECK(across(std::acos((std::cos(0.25) + std::cos(0.75)) / 2)) == Approx(0.5).epsilon(1e-5));

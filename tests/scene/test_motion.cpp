@@ -116,7 +116,8 @@ TEST_CASE("motion: a bent bar's vertices and normals", "[motion]") {
     CAPTURE(t);
     update_render_scene(render, t);
     CHECK(worst_position(scene, render, oracle_pose(scene, {0}, t)) < 4e-6);
-    for (const VertexRecord& v : render.geometry.vertices) CHECK(std::fabs(dot(v.normal_world, v.normal_world) - 1) < 1e-5f);
+    for (const VertexRecord& v : render.geometry.vertices)
+      CHECK(std::fabs(dot(v.normal_world, v.normal_world) - 1) < 1e-5f);
   }
   // At the end the upper half lies along -x from (0, 1, 0), its top at x = -1. The ring at y = 1.5 is half of each: its
   // corner (0.25, 1.5) stays and goes to (-0.5, 1.25).
@@ -164,7 +165,8 @@ TEST_CASE("motion: a mirrored moment keeps the front in front", "[motion]") {
     const auto corner = [&](const std::vector<std::uint8_t>& c) {
       return render.geometry.vertices[chunk.first_vertex + c[chunk.first_index]].position_world;
     };
-    const Vec3f a = corner(render.geometry.corner0), b = corner(render.geometry.corner1), c = corner(render.geometry.corner2);
+    const Vec3f a = corner(render.geometry.corner0), b = corner(render.geometry.corner1),
+                c = corner(render.geometry.corner2);
     CHECK(cross(b - a, c - a).z > 0);
   }
 }
@@ -208,8 +210,9 @@ TEST_CASE("motion: water, cameras and lights go with their nodes", "[motion]") {
   scene.nodes[3].light = 0;
   for (const int n : {1, 2, 3}) scene.nodes[static_cast<std::size_t>(n)].parent = 0;
   const std::vector<float> quarter = {0, 0, 0, 1, 0.70710678f, 0, 0, 0.70710678f};  // about x: -z turns to +y
-  scene.animations.push_back({"", {channel(0, ChannelPath::kTranslation, {0, 1}, {0, 3, 0, 0, 5, 0}),
-                                   channel(0, ChannelPath::kRotation, {0, 1}, quarter)}});
+  scene.animations.push_back({"",
+                              {channel(0, ChannelPath::kTranslation, {0, 1}, {0, 3, 0, 0, 5, 0}),
+                               channel(0, ChannelPath::kRotation, {0, 1}, quarter)}});
   RenderScene render = build_render_scene(scene);
   REQUIRE(render.waters.size() == 1);
   CHECK(render.waters[0].origin.y == 3);
@@ -272,8 +275,10 @@ TEST_CASE("motion: the sample models, every vertex at several times", "[motion]"
       CHECK(worst_position(scene, render, oracle_pose(scene, playing, t)) < 4e-6);
       Vec3f lo = render.geometry.vertices[0].position_world, hi = lo;
       for (const VertexRecord& v : render.geometry.vertices) {
-        lo = {std::min(lo.x, v.position_world.x), std::min(lo.y, v.position_world.y), std::min(lo.z, v.position_world.z)};
-        hi = {std::max(hi.x, v.position_world.x), std::max(hi.y, v.position_world.y), std::max(hi.z, v.position_world.z)};
+        lo = {std::min(lo.x, v.position_world.x), std::min(lo.y, v.position_world.y),
+              std::min(lo.z, v.position_world.z)};
+        hi = {std::max(hi.x, v.position_world.x), std::max(hi.y, v.position_world.y),
+              std::max(hi.z, v.position_world.z)};
       }
       CHECK(std::memcmp(&lo, &render.bounds_min_world, sizeof lo) == 0);
       CHECK(std::memcmp(&hi, &render.bounds_max_world, sizeof hi) == 0);
