@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/float_mode.h"
 #include "core/thread_pool.h"
+#include "raster/geometry_view.h"
 #include "refraction/aov.h"
 #include "refraction/frame.h"
 #include "refraction/sample_positions.h"
@@ -42,21 +43,6 @@ void check_settings(const FrameSettings& s, const RenderScene& scene) {
   check(scene.geometry.triangles.size() < static_cast<std::size_t>(kNoId),
         "the scene has too many triangles; expected fewer than 2147483647");
   check(scene.waters.size() < static_cast<std::size_t>(kMaxWaterBodies), "the scene has too many bodies of water");
-}
-
-GeometryView view_of(const Geometry& g, const Materials& materials) {
-  return {g.x_world.data(),
-          g.y_world.data(),
-          g.z_world.data(),
-          {g.corner0.data(), g.corner1.data(), g.corner2.data()},
-          g.chunks.data(),
-          g.vertices.data(),
-          g.colors.empty() ? nullptr : g.colors.data(),
-          g.triangles.data(),
-          materials.materials.data(),
-          materials.textures.data(),
-          g.uvs1.empty() ? nullptr : g.uvs1.data(),
-          g.tangents.empty() ? nullptr : g.tangents.data()};
 }
 
 // Items of about equal work, enough of them for any number of threads; results do not depend on their size.

@@ -7,26 +7,12 @@
 #include <vector>
 
 #include "raster/front_end.h"
+#include "raster/geometry_view.h"
 #include "raster/visibility.h"
 
 namespace shoal_test {
 
 using namespace shoal;
-
-inline GeometryView view_of(const Geometry& g, const Materials& m) {
-  return {g.x_world.data(),
-          g.y_world.data(),
-          g.z_world.data(),
-          {g.corner0.data(), g.corner1.data(), g.corner2.data()},
-          g.chunks.data(),
-          g.vertices.data(),
-          g.colors.empty() ? nullptr : g.colors.data(),
-          g.triangles.data(),
-          m.materials.data(),
-          m.textures.data(),
-          g.uvs1.empty() ? nullptr : g.uvs1.data(),
-          g.tangents.empty() ? nullptr : g.tangents.data()};
-}
 
 // A pass over the whole frame, pixel (0, 0) top left.
 inline PassSettings whole_frame(int width_px, int height_px, Vec2f centre_px, int tile_px) {
