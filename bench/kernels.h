@@ -8,15 +8,31 @@
 #include "raster/surface.h"
 #include "refraction/frame_data.h"
 
-#if defined(__x86_64__)
-#define SHOAL_BENCH_ISAS(X, Type, name) \
-  X(Type, name, kScalar, isa_scalar)    \
-  X(Type, name, kSse42, isa_sse42) X(Type, name, kAvx2, isa_avx2) X(Type, name, kAvx512, isa_avx512)
-#elif defined(__aarch64__)
-#define SHOAL_BENCH_ISAS(X, Type, name) X(Type, name, kScalar, isa_scalar) X(Type, name, kNeon, isa_neon)
+// X(Type, name, Isa's constant, namespace) for every instruction set that is built.
+#if defined(SHOAL_BUILDS_SSE42)
+#define SHOAL_BENCH_SSE42(X, Type, name) X(Type, name, kSse42, isa_sse42)
 #else
-#define SHOAL_BENCH_ISAS(X, Type, name) X(Type, name, kScalar, isa_scalar)
+#define SHOAL_BENCH_SSE42(X, Type, name)
 #endif
+#if defined(SHOAL_BUILDS_AVX2)
+#define SHOAL_BENCH_AVX2(X, Type, name) X(Type, name, kAvx2, isa_avx2)
+#else
+#define SHOAL_BENCH_AVX2(X, Type, name)
+#endif
+#if defined(SHOAL_BUILDS_AVX512)
+#define SHOAL_BENCH_AVX512(X, Type, name) X(Type, name, kAvx512, isa_avx512)
+#else
+#define SHOAL_BENCH_AVX512(X, Type, name)
+#endif
+#if defined(SHOAL_BUILDS_NEON)
+#define SHOAL_BENCH_NEON(X, Type, name) X(Type, name, kNeon, isa_neon)
+#else
+#define SHOAL_BENCH_NEON(X, Type, name)
+#endif
+#define SHOAL_BENCH_ISAS(X, Type, name)                            \
+  X(Type, name, kScalar, isa_scalar)                               \
+  SHOAL_BENCH_SSE42(X, Type, name) SHOAL_BENCH_AVX2(X, Type, name) \
+  SHOAL_BENCH_AVX512(X, Type, name) SHOAL_BENCH_NEON(X, Type, name)
 #define SHOAL_BENCH_DECLARE(Type, name, kind, isa_namespace) const Type& name##_##isa_namespace();
 #define SHOAL_BENCH_CASE(Type, name, kind, isa_namespace) \
   case Isa::kind:                                         \

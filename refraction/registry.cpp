@@ -12,14 +12,19 @@ namespace {
 
 const KernelTable& table_of(Isa isa) {
   switch (isa) {
-#if defined(__x86_64__)
+#if defined(SHOAL_BUILDS_SSE42)
     case Isa::kSse42:
       return kernel_table_isa_sse42();
+#endif
+#if defined(SHOAL_BUILDS_AVX2)
     case Isa::kAvx2:
       return kernel_table_isa_avx2();
+#endif
+#if defined(SHOAL_BUILDS_AVX512)
     case Isa::kAvx512:
       return kernel_table_isa_avx512();
-#elif defined(__aarch64__)
+#endif
+#if defined(SHOAL_BUILDS_NEON)
     case Isa::kNeon:
       return kernel_table_isa_neon();
 #endif
