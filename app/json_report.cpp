@@ -160,7 +160,7 @@ Json settings_json(const Options& options, const RenderScene& scene, const Place
   s["anisotropy"] = frame.anisotropy;
   s["shadows"] = shadows_name(frame.shadows);
   s["shadow-map"] = frame.shadow_map_px;
-  s["reflections"] = "environment";
+  s["reflections"] = reflections_name(frame.reflections);
   s["exposure"] = json_float(frame.exposure_stops);
   s["tonemap"] = tone_map_name(frame.tone_map);
   s["background"] = background_json(scene.lighting.background);
@@ -203,6 +203,10 @@ Json render_report(const Options& options, const LoadedScene& loaded, const Plac
   r["frames_ms"] = Json::array();
   for (const double ms : times.frames_ms) r["frames_ms"].push_back(json_ms(ms));
   r["frame_digests"] = times.frame_digests;
+  if (!first_frame.rays.empty()) {
+    r["rays"] = Json::object();
+    for (const auto& [kind, count] : first_frame.rays) r["rays"][kind] = count;
+  }
   r["peak_rss_mb"] = json_double(std::round(peak_rss_mb() * 10) / 10);
   return r;
 }

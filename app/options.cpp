@@ -24,7 +24,7 @@ constexpr std::int64_t kMaxTriangles = 50'000'000;
 
 // What is planned, named in the design, and not built yet: refused by name, apart from what does not exist at all.
 const Names kComingMethods = {"liu-2020", "steel-2024",     "narrow-only", "screen-space",
-                              "distort",  "distance-field", "block-grid",  "ray-traced"};
+                              "distort",  "distance-field", "block-grid"};
 const Names kComingSurfaces = {"perlin", "ripples", "gradient-waves", "gerstner", "spectrum"};
 const Names kComingWaterKeys = {"slope", "amplitude", "wavelength", "octaves", "speed", "seed"};
 const Names kWaterKeys = {"size", "depth", "ior", "absorption", "surface", "geometry"};
@@ -223,11 +223,12 @@ void read_frame_settings(const RawOptions& raw, FrameSettings& frame) {
     not_yet("--anisotropy", *raw.anisotropy, {"1"});
   }
   if (raw.shadows) {
-    frame.shadows =
-        read_choice("--shadows", *raw.shadows, {"off", "map"}, {"rays"}) == 0 ? Shadows::kOff : Shadows::kMap;
+    frame.shadows = static_cast<Shadows>(read_choice("--shadows", *raw.shadows, {"off", "map", "rays"}, {}));
   }
   if (raw.shadow_map) frame.shadow_map_px = read_shadow_map(*raw.shadow_map);
-  if (raw.reflections) read_choice("--reflections", *raw.reflections, {"environment"}, {"scene"});
+  if (raw.reflections)
+    frame.reflections =
+        static_cast<Reflections>(read_choice("--reflections", *raw.reflections, {"environment", "scene"}, {}));
   if (raw.exposure)
     frame.exposure_stops = read_float("--exposure", *raw.exposure, -kMaxExposureStops, kMaxExposureStops);
   if (raw.tonemap) {
@@ -323,7 +324,12 @@ const char* geometry_name(WaterGeometry geometry) {
   return geometry == WaterGeometry::kNormals ? "normals" : "displaced";
 }
 
-const char* shadows_name(Shadows shadows) { return shadows == Shadows::kOff ? "off" : "map"; }
+const char* shadows_name(Shadows shadows) {
+  return shadows == Shadows::kOff ? "off" : shadows == Shadows::kMap ? "map" : "rays";
+}
+const char* reflections_name(Reflections reflections) {
+  return reflections == Reflections::kScene ? "scene" : "environment";
+}
 const char* tone_map_name(ToneMap tone_map) { return tone_map == ToneMap::kNone ? "none" : "aces"; }
 
 }  // namespace shoal::app

@@ -66,6 +66,7 @@ SceneOptions read_scene_options(const RawOptions& raw);
 const char* surface_name(SurfaceKind kind);
 const char* geometry_name(WaterGeometry geometry);
 const char* shadows_name(Shadows shadows);
+const char* reflections_name(Reflections reflections);
 const char* tone_map_name(ToneMap tone_map);
 
 struct SurfaceInfo {

@@ -10,6 +10,15 @@
 
 namespace shoal {
 
+// A method that traces rays: every pixel for itself, no stage but this one.
+static void trace_sample(FrameData& f, const MethodKernels& method, ThreadPool& pool, StageClock& clock,
+                         StageDigests* digests) {
+  const std::size_t regions = static_cast<std::size_t>(f.grid.regions_x) * static_cast<std::size_t>(f.grid.regions_y);
+  pool.for_each(regions, [&](std::size_t region, int) { method.trace(f, region); });
+  clock.lap("trace");
+  if (digests != nullptr) digests->direct(f), digests->shaded(f), clock.skip();
+}
+
 void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernels& method, ThreadPool& pool,
                    StageClock& clock, StageDigests* digests) {
   const std::size_t items = f.bins.items.size();
@@ -22,6 +31,7 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
   // 1 Water: where the planes are, seen from this eye. (Flat surfaces have no heights to compute.)
   place_water(f, method);
   clock.lap("water");
+  if (method.trace != nullptr) return trace_sample(f, method, pool, clock, digests);
 
   // 2 Direct: vertex -> clip -> setup -> bin -> visibility, the water's surface first.
   kernels.water_front_end(f);
@@ -47,7 +57,7 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
     clock.lap("refracted.visibility");
     if (digests != nullptr) digests->refracted(f), clock.skip();
 
-    if (mirrors_scene(water.optics)) {
+    if (water.mirrors) {
       const WaterPass mirrored = mirrored_pass(water);
       pool.for_each(items, [&](std::size_t item, int) { kernels.mirrored_front_end(f, mirrored, item); });
       clock.lap("reflected.front_end");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "refraction/broad/broad_phase.h"
 #include "refraction/renderer.h"
 #include "refraction/shadow_map.h"
+#include "refraction/trace/ray_queries.h"
 #include "scene/scene.h"
 
 namespace shoal {
@@ -22,7 +24,7 @@ namespace shoal {
 // What the narrow phase found at a water pixel: the triangle that its refracted (or mirrored) ray shows.
 struct HitBuffers {
   AlignedArray<std::int32_t> refracted_id;  // kNoId: the ray leaves the scene
-  AlignedArray<std::int32_t> mirrored_id;   // written where the surface mirrors the scene (mirrors_scene)
+  AlignedArray<std::int32_t> mirrored_id;   // written where WaterPass::mirrors
   void resize(const FrameGrid& g) {
     refracted_id.resize(g.pixel_slots());
     mirrored_id.resize(g.pixel_slots());
@@ -75,14 +77,20 @@ struct WaterPass {
   Plane keep;              // world clip plane: what the pass draws
   Frustum frustum;         // of the region's bounds
   PassSettings pass;
-  bool mirrored = false;
+  bool mirrors = false;    // the surface shows the scene on the eye's own side, not the background alone
 };
 
-// Does the surface mirror the scene on the eye's own side? It does to an eye in the water, and to one on the denser
-// side (ior below 1), where reflection can be total; elsewhere it reflects the background (docs/decisions).
-SHOAL_INLINE bool mirrors_scene(const BroadPhase& optics) {
-  return optics.eye_below || (!optics.eye_is_thin && !optics.path.identity);
-}
+// Does the surface mirror the scene on the side that a ray comes from, whatever --reflections says? It does from within
+// the water, and from the denser side (ior below 1), where reflection can be total (docs/decisions).
+SHOAL_INLINE bool always_mirrors(bool from_below, float eta) { return from_below || eta > 1.0f; }
+
+// Rays that a frame followed, all samples together.
+struct RayCounts {
+  enum Kind { kPrimary, kReflected, kRefracted, kShadow, kKinds };
+  std::uint64_t of[kKinds] = {};
+};
+
+inline constexpr std::size_t kMaxMethodOptions = 16;
 
 // Everything that a kernel may read or write in a frame. The renderer owns it and keeps its memory between frames.
 struct FrameData {
@@ -94,6 +102,8 @@ struct FrameData {
   GeometryView geometry;
   GeometryView water_geometry;                     // the outlines of the bodies of water
   SunShadows shadows;                              // of the sun, which stands still as the scene does
+  std::unique_ptr<RayQueries> rays;                // where the method or the shadows trace rays, else null
+  float method_option[kMaxMethodOptions] = {};     // of the method, in the order of its list
   std::vector<std::uint32_t> outline_first_chunk;  // of body b; one more at the end
 
   // This frame.
@@ -119,6 +129,7 @@ struct FrameData {
   std::vector<std::uint8_t> srgb8;  // RGB rows
   std::uint64_t water_pixels = 0;
   std::uint64_t subdivision_capped = 0;
+  mutable RayCounts ray_counts;  // kernels that only read the frame count too
 };
 
 }  // namespace shoal

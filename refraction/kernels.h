@@ -43,6 +43,18 @@ struct MethodKernels {
   void (*narrow)(FrameData&, const WaterPass&, std::size_t region);
   // Resolve, light, post: one region of the frame.
   void (*shade)(FrameData&, std::size_t region);
+  // Of a method that traces rays instead: one region of the frame, all of it. The stages above are then not used.
+  void (*trace)(FrameData&, std::size_t region) = nullptr;
+};
+
+// An option of a method, `--set KEY=VALUE`. Its value is a number: a truth value is 0 or 1.
+struct MethodOption {
+  enum class Kind : std::uint8_t { kTruth, kWhole, kReal };
+  const char* key;
+  const char* standard;  // the default, as it would be given
+  const char* meaning;
+  Kind kind;
+  float least, most;
 };
 
 struct Method {
@@ -50,6 +62,8 @@ struct Method {
   const char* description;
   const char* source;
   MethodKernels kernels;
+  const MethodOption* options = nullptr;
+  std::size_t option_count = 0;  // at most kMaxMethodOptions
 };
 
 // Throws UsageError for an unknown name.

@@ -3,6 +3,7 @@
 #include "raster/surface_maps.h"
 #include "refraction/pixel_stage.h"
 #include "refraction/shadow_lookup.h"
+#include "refraction/trace/trace_rays.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -24,8 +25,10 @@ static Vec3<WideF> light_under_water(const WaterPass& water, const Lighting& lig
   return select<WideF>(under, kept, one);
 }
 
-// The sun through a shadow map, if there is one.
-struct MappedSun {
+// The sun through a shadow map, or by rays, or open.
+struct SceneSun {
+  const FrameData& frame;
+  const WaterPass* water;
   const SunMap* map;
   const PixelAttributes<WideF>& at;
   WideM active;
@@ -33,7 +36,12 @@ struct MappedSun {
   template <class F>
   SHOAL_INLINE Vec3<F> reach(Vec3<F> irradiance, WideM facing) const {
     const WideM lanes = facing & active;
-    if (map == nullptr || none(lanes)) return irradiance;
+    if (none(lanes)) return irradiance;
+    if (frame.settings.shadows == Shadows::kRays) {
+      const WideM dark = sun_blocked(frame, water, at.position_world, at.normal_world, lanes);
+      return select<F>(dark, broadcast<F>(Vec3f{0, 0, 0}), irradiance);
+    }
+    if (map == nullptr) return irradiance;
     return irradiance * sun_visibility(*map, at.position_world, at.normal_world, lanes);
   }
 };
@@ -72,7 +80,7 @@ void shade_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential
   const Vec3<WideF> light_scale = water != nullptr ? light_under_water(*water, f.scene->lighting, a.position_world)
                                                    : broadcast<WideF>(Vec3f{1, 1, 1});
   const SunMap* map = water != nullptr ? f.shadows.of_body(static_cast<std::size_t>(water->index)) : f.shadows.air();
-  out.radiance = shade<WideF>(out.surface, unlit, to_eye, f.scene->lighting, light_scale, MappedSun{map, a, active});
+  out.radiance = shade<WideF>(out.surface, unlit, to_eye, f.scene->lighting, light_scale, SceneSun{f, water, map, a, active});
   out.t = a.t;
 }
 

@@ -51,8 +51,12 @@ const std::vector<MethodInfo>& method_infos() {
   static const std::vector<MethodInfo> infos = [] {
     std::vector<MethodInfo> list;
     const KernelTable& table = table_of(Isa::kScalar);
-    for (std::size_t i = 0; i < table.method_count; ++i)
-      list.push_back({table.methods[i].name, table.methods[i].description, table.methods[i].source, {}});
+    for (std::size_t i = 0; i < table.method_count; ++i) {
+      const Method& method = table.methods[i];
+      list.push_back({method.name, method.description, method.source, {}});
+      for (std::size_t k = 0; k < method.option_count; ++k)
+        list.back().options.emplace_back(method.options[k].key, method.options[k].standard);
+    }
     return list;
   }();
   return infos;

@@ -9,6 +9,7 @@
 #include "raster/geometry_view.h"
 #include "refraction/aov.h"
 #include "refraction/frame.h"
+#include "refraction/method_options.h"
 #include "refraction/sample_positions.h"
 #include "refraction/stage_digests.h"
 
@@ -38,12 +39,12 @@ void check_settings(const FrameSettings& s, const RenderScene& scene) {
   const std::vector<Isa> isas = supported_isas();
   check(std::find(isas.begin(), isas.end(), s.isa) != isas.end(),
         std::string("isa ") + isa_name(s.isa) + " does not run on this machine");
-  check(s.method_options.empty(), "option '" + (s.method_options.empty() ? "" : s.method_options.begin()->first) +
-                                      "' is unknown to method " + s.method);
   check(scene.geometry.triangles.size() < static_cast<std::size_t>(kNoId),
         "the scene has too many triangles; expected fewer than 2147483647");
   check(scene.waters.size() < static_cast<std::size_t>(kMaxWaterBodies), "the scene has too many bodies of water");
 }
+
+constexpr const char* kRayNames[RayCounts::kKinds] = {"primary", "reflected", "refracted", "shadow"};
 
 // Items of about equal work, enough of them for any number of threads; results do not depend on their size.
 PassBins make_bins(std::size_t chunk_count) {
@@ -84,6 +85,11 @@ struct Renderer::Impl {
     f.water_geometry = view_of(outlines, outline_materials);
     f.bins = make_bins(scene.geometry.chunks.size());
     f.water_bins.items.resize(scene.waters.size());
+    read_method_options(method, settings.method_options, f.method_option);
+    if (method.kernels.trace != nullptr || settings.shadows == Shadows::kRays) {
+      f.rays = make_ray_queries(scene, pool.threads());
+      if (f.rays == nullptr) throw UsageError("this build has no ray tracer; expected a method that is not ray-traced");
+    }
     if (!moved) build_shadows(f, kernels, pool);
     allocate();
   }
@@ -158,6 +164,7 @@ struct Renderer::Impl {
       frame.water_geometry = view_of(outlines, outline_materials);
     }
     clock.lap("animate");
+    if (frame.rays != nullptr) frame.rays->update(), clock.lap("rays.build");
     build_shadows(frame, kernels, pool);
     clock.lap("shadow.map");
   }
@@ -170,6 +177,7 @@ struct Renderer::Impl {
     clock.reset();
     if (moved) move(time_s);
     f.water_pixels = f.subdivision_capped = 0;
+    f.ray_counts = RayCounts();
     f.srgb8.resize(static_cast<std::size_t>(f.settings.width_px) * static_cast<std::size_t>(f.settings.height_px) * 3);
     if (wanted != nullptr) digests.shadow(f), clock.skip();
     f.sample_count = f.settings.spp;
@@ -209,6 +217,10 @@ struct Renderer::Impl {
     out.stages_ms = clock.stages();
     out.frame_ms = clock.total_ms();
     out.subdivision_capped = f.subdivision_capped;
+    out.rays.clear();
+    if (f.rays != nullptr)
+      for (int kind = 0; kind < RayCounts::kKinds; ++kind)
+        out.rays.emplace_back(kRayNames[kind], f.ray_counts.of[kind]);
   }
 };
 

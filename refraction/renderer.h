@@ -16,7 +16,9 @@
 namespace shoal {
 
 // Of the sun, the first directional light.
-enum class Shadows : std::uint8_t { kOff, kMap };
+enum class Shadows : std::uint8_t { kOff, kMap, kRays };
+// What rays see that water sends back to the side that they came from: the background alone, or the scene.
+enum class Reflections : std::uint8_t { kEnvironment, kScene };
 enum class ToneMap : std::uint8_t { kNone, kAces };
 
 // Every buffer that can be asked for beside the picture. Names and channels: aov_infos().
@@ -56,6 +58,7 @@ struct FrameSettings {
   int anisotropy = 1;
   Shadows shadows = Shadows::kMap;
   int shadow_map_px = 4096;  // a power of two, 256 to 8192
+  Reflections reflections = Reflections::kEnvironment;
   float exposure_stops = 0;
   ToneMap tone_map = ToneMap::kNone;
   std::uint32_t aovs = 0;    // bit 1 << int(Aov)
@@ -81,6 +84,7 @@ struct Frame {
   double frame_ms = 0;
   std::uint64_t water_pixels = 0;
   std::uint64_t subdivision_capped = 0;  // triangles that reached the subdivision's level cap
+  std::vector<std::pair<std::string, std::uint64_t>> rays;  // traced, by kind; empty where none were
 };
 
 // Holds what does not depend on camera and time: chunks, buffers, threads; of an animated scene a copy of its own,

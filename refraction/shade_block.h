@@ -104,8 +104,7 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
                                                   HitKind::kSurface, hit);
                      });
   }
-  if (mirrors_scene(water.optics)) {
-    // Internal reflection always sees the scene (docs/decisions): under water a mirror of the sky would be wrong.
+  if (water.mirrors) {
     const WideI shown = WideI::load(f.hits.mirrored_id.data() + block.offset);
     reflected = look(f, water, r.reflected, r.reflected_differential, shown, lanes, eye_below,
                      [&](const ShadedLanes& s, WideM hit) SHOAL_LAMBDA {

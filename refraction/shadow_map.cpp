@@ -218,7 +218,7 @@ void build_shadows(FrameData& f, const FrameKernels& kernels, ThreadPool& pool) 
   SunShadows& shadows = f.shadows;
   shadows = SunShadows();
   const RenderScene& scene = *f.scene;
-  if (f.settings.shadows == Shadows::kOff || scene.lighting.directional.empty()) return;
+  if (f.settings.shadows != Shadows::kMap || scene.lighting.directional.empty()) return;
   const Vec3f direction = scene.lighting.directional[0].direction_world;
   const SunAxes axes = sun_axes(direction);
   const std::vector<SunBend> bends = collect_bends(scene, direction, shadows.map_of_body);

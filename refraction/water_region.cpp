@@ -4,6 +4,8 @@
 #include <atomic>
 #include <vector>
 
+#include "refraction/narrow/exact_ray.h"
+
 namespace shoal {
 
 namespace {
@@ -39,6 +41,8 @@ void place_water(FrameData& f, const MethodKernels& method) {
     w.index = static_cast<std::int32_t>(b);
     w.optics = make_broad_phase(bodies[b], f.view);
     w.map = method.map(bodies[b], f.view);
+    const WaterSide side = eye_side(w.optics);
+    w.mirrors = f.settings.reflections == Reflections::kScene || always_mirrors(w.optics.eye_below, side.eta);
     w.keep = {w.map.far_normal, kOverlap_m - dot(w.map.far_normal, w.map.plane_origin)};
     if (f.eye_in_water < 0 && contains(bodies[b], f.view.camera.position_world)) f.eye_in_water = w.index;
   }
@@ -99,7 +103,6 @@ bool find_region(FrameData& f, const FrameKernels& kernels, WaterPass& water, Th
 
 WaterPass mirrored_pass(const WaterPass& refracted) {
   WaterPass w = refracted;
-  w.mirrored = true;
   // The eye's side of the plane is what it mirrors.
   const Vec3f normal = -w.optics.far_normal;
   w.keep = {normal, kOverlap_m - dot(normal, w.optics.plane_origin)};

@@ -40,7 +40,7 @@ struct MethodStages {
       const WideI id =
           confirm_hit(f.geometry, f.refracted, rays.refracted, own, x, y, here & rays.at_surface.transmitted);
       store_masked(f.hits.refracted_id.data() + block.offset, id, here);
-      if (!mirrors_scene(water.optics)) return;
+      if (!water.mirrors) return;
       const WideI mirrored = WideI::load(f.mirrored.id.data() + block.offset);
       const WideI mirror_id = confirm_hit(f.geometry, f.mirrored, rays.reflected, mirrored, x, y, here);
       store_masked(f.hits.mirrored_id.data() + block.offset, mirror_id, here);

@@ -8,6 +8,19 @@
 
 namespace shoal::inline SHOAL_ISA_NS {
 
+// One side of a plane of water: what a ray that comes from there meets.
+struct WaterSide {
+  Vec3f plane_origin;
+  Vec3f normal;  // unit, towards the side that the ray comes from
+  float eta = 1;  // n_incident / n_transmitted
+};
+SHOAL_INLINE WaterSide eye_side(const BroadPhase& bp) {
+  return {bp.plane_origin, -bp.far_normal, bp.eye_below ? bp.path.ior : 1.0f / bp.path.ior};
+}
+SHOAL_INLINE WaterSide water_side(const WaterBody& body, bool from_below) {
+  return {body.origin, from_below ? -body.normal : body.normal, from_below ? body.ior : 1.0f / body.ior};
+}
+
 template <class F>
 struct ExactRay {
   F t;  // of the crossing along the view ray, in its direction's lengths (perspective: view depth)
@@ -24,19 +37,19 @@ struct ExactRay {
   MaskOf<F> transmitted;  // not totally reflected
 };
 
-// Follows a view ray to the plane of the water.
+// Follows a ray to the plane of the water.
 //
-//   bp   the plane and the eye; the eye's side is the incident one
-//   ray  from pixel_ray (or any other from the eye's side), direction of any length but 0
+//   side  the plane, seen from where the ray comes from
+//   ray   direction of any length but 0
 // Returns all of ExactRay. Where `crosses` is false the ray is parallel to the plane, goes away from it or starts
 // behind it: t is 0, the crossing the origin, and the directions are finite but meaningless.
 // Error: crossing 2e-7 of the coordinates' size over cos_incident; refracted 6e-7 over cos_transmitted; reflected 1e-6
 //        (tests/refraction/test_exact_ray.cpp).
 template <class F>
-SHOAL_INLINE ExactRay<F> exact_ray(const BroadPhase& bp, Ray<F> ray) {
+SHOAL_INLINE ExactRay<F> exact_ray(const WaterSide& side, Ray<F> ray) {
   ExactRay<F> out;
-  const Vec3<F> n = broadcast<F>(-bp.far_normal);
-  const F height = dot(ray.origin_world - broadcast<F>(bp.plane_origin), n);
+  const Vec3<F> n = broadcast<F>(side.normal);
+  const F height = dot(ray.origin_world - broadcast<F>(side.plane_origin), n);
   const F approach = -dot(ray.direction_world, n);
   out.crosses = (approach > F(0.0f)) & (height >= F(0.0f));
   const F t = height / select(out.crosses, approach, F(1.0f));
@@ -46,8 +59,7 @@ SHOAL_INLINE ExactRay<F> exact_ray(const BroadPhase& bp, Ray<F> ray) {
   out.incident = normalize(ray.direction_world);
   out.normal = n;
   out.cos_incident = clamp(-dot(out.incident, n), F(0.0f), F(1.0f));
-  const float n_water = bp.path.ior;
-  out.eta = F(bp.eye_below ? n_water : 1.0f / n_water);
+  out.eta = F(side.eta);
   const Refraction<F> refraction = refract(out.incident, n, out.eta);
   out.refracted = refraction.direction;
   out.cos_transmitted = refraction.cos_transmitted;
@@ -55,6 +67,12 @@ SHOAL_INLINE ExactRay<F> exact_ray(const BroadPhase& bp, Ray<F> ray) {
   out.reflected = reflect(out.incident, n);
   out.reflectance = fresnel_dielectric(out.cos_incident, out.eta);
   return out;
+}
+
+// A view ray: the eye's side is the incident one.
+template <class F>
+SHOAL_INLINE ExactRay<F> exact_ray(const BroadPhase& bp, Ray<F> ray) {
+  return exact_ray(eye_side(bp), ray);
 }
 
 // Differentials of the unit direction and of the crossing, before the interface.
