@@ -11,7 +11,8 @@ int run_list(const std::string& kind) {
   std::string lines;
   if (kind == "methods") {
     for (const MethodInfo& m : method_infos())
-      lines += fmt::format("{:<16} {} ({})\n", m.name, m.description, m.source);
+      lines += fmt::format("{:<16} {} ({}){}\n", m.name, m.description, m.source,
+                           m.portable ? "" : "; not the same bytes on every machine");
   } else if (kind == "surfaces") {
     for (const SurfaceInfo& s : surface_infos()) lines += fmt::format("{:<16} {}\n", s.name, s.description);
   } else if (kind == "scenes") {

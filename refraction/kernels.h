@@ -64,6 +64,7 @@ struct Method {
   MethodKernels kernels;
   const MethodOption* options = nullptr;
   std::size_t option_count = 0;  // at most kMaxMethodOptions
+  bool portable = true;          // the same bytes on every machine (docs/DETERMINISM.md)
 };
 
 // Throws UsageError for an unknown name.

@@ -80,7 +80,8 @@ void shade_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential
   const Vec3<WideF> light_scale = water != nullptr ? light_under_water(*water, f.scene->lighting, a.position_world)
                                                    : broadcast<WideF>(Vec3f{1, 1, 1});
   const SunMap* map = water != nullptr ? f.shadows.of_body(static_cast<std::size_t>(water->index)) : f.shadows.air();
-  out.radiance = shade<WideF>(out.surface, unlit, to_eye, f.scene->lighting, light_scale, SceneSun{f, water, map, a, active});
+  out.radiance =
+      shade<WideF>(out.surface, unlit, to_eye, f.scene->lighting, light_scale, SceneSun{f, water, map, a, active});
   out.t = a.t;
 }
 

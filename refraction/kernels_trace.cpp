@@ -13,12 +13,12 @@ struct PacketContext {
   const RayDifferential<WideF>* differential;
 };
 
-void fill(RayPacket& packet, const Ray<WideF>& ray, WideF t_far) {
+void fill(RayPacket& packet, const Ray<WideF>& ray, float t_near, WideF t_far) {
   ray.origin_world.x.store(packet.origin_x), ray.origin_world.y.store(packet.origin_y);
   ray.origin_world.z.store(packet.origin_z);
   ray.direction_world.x.store(packet.direction_x), ray.direction_world.y.store(packet.direction_y);
   ray.direction_world.z.store(packet.direction_z);
-  WideF(0.0f).store(packet.t_near);
+  WideF(t_near).store(packet.t_near);
   t_far.store(packet.t_far);
 }
 
@@ -45,7 +45,7 @@ std::uint32_t blocked(const FrameData& f, const Ray<WideF>& ray, WideF t_far, Wi
   const RayDifferential<WideF> differential = no_differential();
   const PacketContext context{&f, &differential};
   RayPacket packet;
-  fill(packet, ray, t_far);
+  fill(packet, ray, 0.0f, t_far);
   packet.keep = &keep_hits, packet.context = &context;
   const std::uint32_t bits = to_bits(lanes);
   count_rays(f, RayCounts::kShadow, static_cast<std::uint64_t>(__builtin_popcount(bits)));
@@ -60,11 +60,11 @@ void count_rays(const FrameData& f, RayCounts::Kind kind, std::uint64_t rays) {
   std::atomic_ref<std::uint64_t>(f.ray_counts.of[kind]).fetch_add(rays, std::memory_order_relaxed);
 }
 
-WideI first_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideF t_far,
-                 WideM lanes) {
+WideI first_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, float t_near,
+                 WideF t_far, WideM lanes) {
   const PacketContext context{&f, &differential};
   RayPacket packet;
-  fill(packet, ray, t_far);
+  fill(packet, ray, t_near, t_far);
   packet.keep = &keep_hits, packet.context = &context;
   f.rays->first_hits(packet, to_bits(lanes));
   return WideI::load(packet.id);

@@ -53,7 +53,7 @@ const std::vector<MethodInfo>& method_infos() {
     const KernelTable& table = table_of(Isa::kScalar);
     for (std::size_t i = 0; i < table.method_count; ++i) {
       const Method& method = table.methods[i];
-      list.push_back({method.name, method.description, method.source, {}});
+      list.push_back({method.name, method.description, method.source, {}, method.portable});
       for (std::size_t k = 0; k < method.option_count; ++k)
         list.back().options.emplace_back(method.options[k].key, method.options[k].standard);
     }

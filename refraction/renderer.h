@@ -83,7 +83,7 @@ struct Frame {
   std::vector<std::pair<std::string, double>> stages_ms;     // in pipeline order
   double frame_ms = 0;
   std::uint64_t water_pixels = 0;
-  std::uint64_t subdivision_capped = 0;  // triangles that reached the subdivision's level cap
+  std::uint64_t subdivision_capped = 0;                     // triangles that reached the subdivision's level cap
   std::vector<std::pair<std::string, std::uint64_t>> rays;  // traced, by kind; empty where none were
 };
 
@@ -117,6 +117,7 @@ struct MethodInfo {
   const char* description;
   const char* source;
   std::vector<std::pair<std::string, std::string>> options;  // key, default
+  bool portable = true;                                      // the same bytes on every machine
 };
 const std::vector<MethodInfo>& method_infos();
 

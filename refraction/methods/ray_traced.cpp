@@ -2,7 +2,8 @@
 // reflection, and lit as the rasterizer lights it: the same triangles, attributes, textures and shading function.
 //
 // Source  Whitted 1980; Li et al., Sec. 4 (recursive tracing of Perlin water).
-// Differs Texture filtering follows ray differentials (Igehy 1999) as the raster methods do, not cones. A ray beyond the
+// Differs Texture filtering follows ray differentials (Igehy 1999) as the raster methods do, not cones. A ray beyond
+// the
 //         depth or below the weight sees the background, so that a white scene stays white.
 // Error   Which triangle is met is Embree's answer (robust mode); the point on it is our own arithmetic (resolve.h).
 #include <atomic>
@@ -31,6 +32,7 @@ struct Path {
   RayDifferential<WideF> differential;
   Vec3<WideF> weight;  // of what they bring
   WideM lanes;
+  float t_near = 0;              // in the direction's lengths
   int level = 1;                 // 1: from the eye
   std::int32_t medium = kAir;    // the body of water that they are in
   std::int32_t from = kNowhere;  // the flat body that they start on: they do not meet it again
@@ -73,7 +75,7 @@ SHOAL_INLINE WaterMet nearest_water(const FrameData& f, const Path& path) {
     const WideF height = dot(broadcast<WideF>(body.origin) - path.ray.origin_world, normal);
     const WideM crosses = path.lanes & (approach != WideF(0.0f));
     const WideF t = height / select(crosses, approach, WideF(1.0f));
-    const WideM nearer = crosses & (t > WideF(0.0f)) & (t < met.t);
+    const WideM nearer = crosses & (t > WideF(0.0f)) & (t >= WideF(path.t_near)) & (t < met.t);
     if (none(nearer)) continue;
     const WideM here = nearer & in_outline(body, path.ray.origin_world + path.ray.direction_world * t);
     met.t = select(here, t, met.t);
@@ -89,7 +91,7 @@ class Tracer {
   // Adds what the rays bring to the block's colour.
   __attribute__((noinline)) void follow(const Path& path) {
     const WaterMet water = nearest_water(f, path);
-    const WideI id = first_hits(f, path.ray, path.differential, water.t, path.lanes);
+    const WideI id = first_hits(f, path.ray, path.differential, path.t_near, water.t, path.lanes);
     const WideM hit = path.lanes & is_triangle(id);
     const WideM wet = path.lanes & !hit & (water.body >= WideI(0));
     const WideM gone = path.lanes & !hit & !wet;
@@ -140,8 +142,8 @@ class Tracer {
     if (const WaterPass* medium = medium_of(path)) {
       // Out of the scene through the water's bottom, as the raster methods have it (shade_block.h).
       const WideF descent = abs(dot(direction, broadcast<WideF>(medium->body->normal)));
-      const WideF path_m = path.level == 1 ? WideF(shade_detail::kFarAway_m)
-                                           : WideF(medium->body->depth_m) / max(descent, WideF(1e-3f));
+      const WideF path_m =
+          path.level == 1 ? WideF(shade_detail::kFarAway_m) : WideF(medium->body->depth_m) / max(descent, WideF(1e-3f));
       weight = weight * absorbed(*medium->body, path_m);
     }
     add(weight, background_radiance<WideF>(f.scene->lighting.background, direction), gone);
@@ -185,8 +187,7 @@ class Tracer {
       next.medium = path.medium;
       next.shows = counted & !at.transmitted;
       next.shown_as = HitKind::kMirror;
-      const bool sees_scene =
-          f.settings.reflections == Reflections::kScene || always_mirrors(from_below, side.eta);
+      const bool sees_scene = f.settings.reflections == Reflections::kScene || always_mirrors(from_below, side.eta);
       if (any(next.lanes)) follow_on(next, RayCounts::kReflected, sees_scene);
     }
   }
@@ -199,7 +200,8 @@ class Tracer {
     WideM on = next.lanes & (brings >= WideF(f.method_option[kWeight]));
     if (too_deep || !sees_scene) on = mask_from_bits(0);
     const WideM cut = next.lanes & !on;
-    if (any(cut)) add(next.weight, background_radiance<WideF>(f.scene->lighting.background, next.ray.direction_world), cut);
+    if (any(cut))
+      add(next.weight, background_radiance<WideF>(f.scene->lighting.background, next.ray.direction_world), cut);
     if (none(on)) return;
     next.lanes = on;
     count_rays(f, kind, static_cast<std::uint64_t>(__builtin_popcount(to_bits(on))));
@@ -251,6 +253,7 @@ void trace_region(FrameData& f, std::size_t region) {
     path.differential = pixel_ray_differential<WideF>(f.view);
     path.weight = broadcast<WideF>(Vec3f{1, 1, 1});
     path.lanes = block.in_frame;
+    path.t_near = f.view.camera.near_m;
     path.medium = f.eye_in_water;
     path.shows = mask_from_bits(0);
     count_rays(f, RayCounts::kPrimary, static_cast<std::uint64_t>(__builtin_popcount(to_bits(path.lanes))));
@@ -271,7 +274,8 @@ Method ray_traced() {
           "Whitted 1980; Li et al.; Liu et al. 2020, reference [6]",
           kernels,
           kOptions,
-          kOptionCount};
+          kOptionCount,
+          false};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -11,7 +11,7 @@ namespace shoal::inline SHOAL_ISA_NS {
 // One side of a plane of water: what a ray that comes from there meets.
 struct WaterSide {
   Vec3f plane_origin;
-  Vec3f normal;  // unit, towards the side that the ray comes from
+  Vec3f normal;   // unit, towards the side that the ray comes from
   float eta = 1;  // n_incident / n_transmitted
 };
 SHOAL_INLINE WaterSide eye_side(const BroadPhase& bp) {

@@ -182,8 +182,7 @@ class EmbreeQueries final : public RayQueries {
     for (const Drawable& drawable : scene.geometry.drawables) {
       const Material& material = scene.materials.materials[drawable.material];
       if (!drawable.drawn || material.alpha_mode == AlphaMode::kBlend) continue;
-      KindTriangles& to =
-          kind_of({!material.double_sided, material.alpha_mode == AlphaMode::kMask, !material.unlit});
+      KindTriangles& to = kind_of({!material.double_sided, material.alpha_mode == AlphaMode::kMask, !material.unlit});
       for (std::uint32_t k = 0; k < drawable.triangle_count; ++k) {
         const std::uint32_t id = drawable.first_triangle + k;
         const Geometry::TriangleRecord& record = scene.geometry.triangles[id];
@@ -203,8 +202,7 @@ class EmbreeQueries final : public RayQueries {
   void attach(const Geometry& geometry, KindTriangles& kind) {
     kind.geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(kind.geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, geometry.vertices.data(),
-                               offsetof(VertexRecord, position_world), sizeof(VertexRecord),
-                               geometry.vertices.size());
+                               offsetof(VertexRecord, position_world), sizeof(VertexRecord), geometry.vertices.size());
     rtcSetSharedGeometryBuffer(kind.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, kind.indices.data(), 0,
                                3 * sizeof(std::uint32_t), kind.id.size());
     rtcSetGeometryUserData(kind.geometry, &kind);

@@ -5,11 +5,11 @@
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-// The triangle that each ray meets first between its origin and t_far; kNoId where there is none.
+// The triangle that each ray meets first between t_near and t_far (in the direction's lengths); kNoId where there is
+// none.
 //   differential  of the rays: what cut-out textures are filtered by
-//   t_far         in the direction's lengths
-WideI first_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideF t_far,
-                 WideM lanes);
+WideI first_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, float t_near,
+                 WideF t_far, WideM lanes);
 
 // Which of the points are in the sun's shadow, by rays towards it; under a plane of water along the refracted way to
 // the plane, then on in the air.

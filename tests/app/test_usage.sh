@@ -48,7 +48,7 @@ refuses 2 "--frames and --repeat exclude" "$shoal" render box -o f%d.png --frame
 # --- Names
 r "--method 'foo': unknown; expected one of: .*two-phase" --method foo
 r "--method 'liu-2020': has not come yet" --method liu-2020
-r "--method 'ray-traced': has not come yet" --method ray-traced
+r "option 'depth' of ray-traced: '9' is not allowed; expected a whole number from 1 to 8" --method ray-traced --set depth=9
 r "--methods: belongs to shoal compare" --methods none
 r "--reference: belongs to shoal compare" --reference none
 r "--camera 'nowhere': unknown; expected an index from 0 to" --camera nowhere

@@ -166,8 +166,8 @@ std::vector<std::pair<std::string, Camera>> cameras_of(const RenderScene& scene,
 
 void check_scene(const std::string& name, std::uint64_t triangles, double share, double share_elsewhere) {
   const RenderScene scene = built_in(name, triangles);
-  for (const std::string method : {"two-phase", "none"}) {
-    const RefractionOracle oracle(scene, method == "two-phase");
+  for (const std::string method : {"two-phase", "none", "ray-traced"}) {
+    const RefractionOracle oracle(scene, method != "none");
     for (const auto& [camera_name, camera] : cameras_of(scene, name == "box")) {
       Tally t;
       compare(scene, oracle, camera, method, t);
@@ -180,9 +180,11 @@ void check_scene(const std::string& name, std::uint64_t triangles, double share,
       CAPTURE(t.position, t.hit, t.depth);
       CHECK(t.water > 50);
       CHECK(t.not_silhouette == 0);
-      CHECK(static_cast<double>(t.ghosts) <= 0.001 * pixels);
-      CHECK(differ <= share * pixels);
-      CHECK(elsewhere <= share_elsewhere * pixels);
+      // Rays differ where a path passes an edge within rounding, no more.
+      const bool traced = method == "ray-traced";
+      CHECK(static_cast<double>(t.ghosts) <= (traced ? 0.0 : 0.001 * pixels));
+      CHECK(differ <= (traced ? 0.0005 : share) * pixels);
+      CHECK(elsewhere <= (traced ? 0.0002 : share_elsewhere) * pixels);
       CHECK(t.position < 1);
       CHECK(t.hit < 1);
       CHECK(t.depth < 1);
