@@ -6,17 +6,9 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "water/surface_settings.h"
 
 namespace shoal {
-
-enum class SurfaceKind : std::uint8_t { kFlat };
-enum class WaterGeometry : std::uint8_t { kNormals, kDisplaced };
-
-// Shape of the surface over the plane (DESIGN: `surface`). Later kinds add their parameters here.
-struct SurfaceSettings {
-  SurfaceKind kind = SurfaceKind::kFlat;
-  WaterGeometry geometry = WaterGeometry::kNormals;
-};
 
 // All in world space and metres. axis_x, normal and axis_z are unit and orthogonal; a point's height above the plane is
 // dot(p - origin, normal).

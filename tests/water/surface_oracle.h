@@ -1,0 +1,92 @@
+// The height of a prepared surface in double, by formulas other than the code's, and its slope by central differences.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "water/surface.h"
+
+namespace surface_oracle {
+
+using namespace shoal;
+
+inline constexpr double kTurn = 6.283185307179586;
+
+// A lattice point's gradient is the noise's own at that point, where the fades have no slope. Asked once a point.
+struct LatticeCache {
+  std::int64_t x = INT64_MIN, z = INT64_MIN;
+  std::int32_t seed = 0;
+  double gx[4] = {}, gz[4] = {};
+};
+
+inline double fade(double t, bool cubic) {
+  return cubic ? 3 * std::pow(t, 2) - 2 * std::pow(t, 3)
+               : 6 * std::pow(t, 5) - 15 * std::pow(t, 4) + 10 * std::pow(t, 3);
+}
+
+// Sum over the corners of weight times ramp.
+inline double noise(double x, double z, std::int32_t cell_x, std::int32_t cell_z, std::int32_t seed, bool cubic,
+                    LatticeCache& cache) {
+  const double fx = std::floor(x), fz = std::floor(z);
+  const std::int64_t ix = static_cast<std::int64_t>(fx) + cell_x, iz = static_cast<std::int64_t>(fz) + cell_z;
+  if (cache.x != ix || cache.z != iz || cache.seed != seed) {
+    for (int c = 0; c < 4; ++c) {
+      const Noise<float> n = gradient_noise(0.0f, 0.0f, static_cast<std::int32_t>(ix + (c & 1)),
+                                            static_cast<std::int32_t>(iz + (c >> 1)), seed, cubic);
+      cache.gx[c] = static_cast<double>(n.dx);
+      cache.gz[c] = static_cast<double>(n.dz);
+    }
+    cache.x = ix, cache.z = iz, cache.seed = seed;
+  }
+  double sum = 0;
+  for (int c = 0; c < 4; ++c) {
+    const double dx = x - fx - (c & 1), dz = z - fz - (c >> 1);
+    sum += fade(1 - std::fabs(dx), cubic) * fade(1 - std::fabs(dz), cubic) * (cache.gx[c] * dx + cache.gz[c] * dz);
+  }
+  return sum;
+}
+
+inline double ripple(const RippleSource& s, double x, double z) {
+  const double r = std::sqrt(std::pow(x - static_cast<double>(s.x_m), 2) + std::pow(z - static_cast<double>(s.z_m), 2) +
+                             static_cast<double>(s.soften2_m2));
+  const double share = r * static_cast<double>(s.inverse_reach_per_m);
+  const double faded = s.exponential != 0 ? std::exp(-share) : std::fmax(0.0, 1 - share);
+  return static_cast<double>(s.amplitude_m) * faded *
+         std::sin(kTurn * (static_cast<double>(s.turns_per_m) * r + static_cast<double>(s.phase_turns)));
+}
+
+// The point at rest by plain iteration until it stands still.
+inline double trochoids(const WaterSurface& surface, double x, double z) {
+  double px = x, pz = z, height = 0;
+  for (int round = 0; round < 200; ++round) {
+    double qx = x, qz = z;
+    height = 0;
+    for (std::size_t i = 0; i < surface.trochoids.size(); ++i) {
+      const TrochoidWave& w = surface.trochoids[i];
+      const double angle = kTurn * (px * static_cast<double>(w.turns_x_per_m) +
+                                    pz * static_cast<double>(w.turns_z_per_m) + static_cast<double>(w.phase_turns));
+      qx += static_cast<double>(w.push_x_m) * std::sin(angle);
+      qz += static_cast<double>(w.push_z_m) * std::sin(angle);
+      height += static_cast<double>(w.amplitude_m) * std::cos(angle);
+    }
+    px = qx, pz = qz;
+  }
+  return height;
+}
+
+// Sum of all parts but those on grids.
+inline double height(const WaterSurface& surface, double x, double z) {
+  double sum = 0;
+  for (std::size_t i = 0; i < surface.noise.size(); ++i) {
+    const NoiseLayer& n = surface.noise[i];
+    LatticeCache cache;
+    const double px = x * static_cast<double>(n.xx) + z * static_cast<double>(n.xz) + static_cast<double>(n.offset_x);
+    const double pz = x * static_cast<double>(n.zx) + z * static_cast<double>(n.zz) + static_cast<double>(n.offset_z);
+    sum += static_cast<double>(n.amplitude_m) * noise(px, pz, n.cell_x, n.cell_z, n.seed, n.cubic != 0, cache);
+  }
+  for (std::size_t i = 0; i < surface.ripples.size(); ++i) sum += ripple(surface.ripples[i], x, z);
+  if (surface.trochoids.size() != 0) sum += trochoids(surface, x, z);
+  return sum;
+}
+
+}  // namespace surface_oracle

@@ -1,0 +1,100 @@
+// Every surface and valid_normal: sixteen lanes give the bits of one, and every instruction set those written here.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "../core/isa_case.h"
+#include "core/digest.h"
+#include "surface_cases.h"
+#include "water/surface.h"
+#include "water/valid_normal.h"
+
+namespace {
+
+using namespace shoal;
+using surface_cases::kBody;
+
+}  // namespace
+
+SHOAL_ISA_CASE(lanes_equal_scalars, "surfaces have the same bits in lanes as alone") {
+  for (const auto& c : surface_cases::all()) {
+    CAPTURE(c.name);
+    const WaterSurface surface = prepare_surface(c.settings, 2.25, kBody);
+    std::mt19937 random(11);
+    for (int block = 0; block < 200; ++block) {
+      alignas(64) float x[16], z[16], wide[3][16];
+      for (int i = 0; i < 16; ++i) {
+        x[i] = static_cast<float>(static_cast<std::int32_t>(random()) >> 8) * 0x1p-19f;
+        z[i] = static_cast<float>(static_cast<std::int32_t>(random()) >> 8) * 0x1p-19f;
+      }
+      if (block == 0) x[3] = 1e30f, z[4] = -HUGE_VALF, x[5] = 0.0f, z[5] = -0.0f;
+      const SurfacePoint<WideF> got = surface_at(surface, WideF::load(x), WideF::load(z));
+      got.height_m.store(wide[0]);
+      got.slope_x.store(wide[1]);
+      got.slope_z.store(wide[2]);
+      for (int i = 0; i < 16; ++i) {
+        const SurfacePoint<float> one = surface_at(surface, x[i], z[i]);
+        REQUIRE(as_int(wide[0][i]) == as_int(one.height_m));
+        REQUIRE(as_int(wide[1][i]) == as_int(one.slope_x));
+        REQUIRE(as_int(wide[2][i]) == as_int(one.slope_z));
+      }
+    }
+  }
+}
+
+SHOAL_ISA_CASE(valid_normals_equal, "valid_normal has the same bits in lanes as alone") {
+  std::mt19937 random(12);
+  const auto signed_unit = [&] { return static_cast<float>(static_cast<std::int32_t>(random()) >> 8) * 0x1p-23f; };
+  for (const float eta : {0.75f, 1.0f, 1.333f}) {
+    for (int block = 0; block < 400; ++block) {
+      alignas(64) float in[6][16], wide[3][16];
+      Vec3f d[16], wave[16];
+      for (int i = 0; i < 16; ++i) {
+        d[i] = normalize(Vec3f{signed_unit(), -0.3f * std::fabs(signed_unit()) - 1e-4f, signed_unit()});
+        wave[i] = normalize(Vec3f{signed_unit(), 1.0f, signed_unit()});
+        in[0][i] = d[i].x, in[1][i] = d[i].y, in[2][i] = d[i].z;
+        in[3][i] = wave[i].x, in[4][i] = wave[i].y, in[5][i] = wave[i].z;
+      }
+      const Vec3<WideF> got = valid_normal<WideF>({WideF::load(in[0]), WideF::load(in[1]), WideF::load(in[2])},
+                                                  broadcast<WideF>(Vec3f{0, 1, 0}),
+                                                  {WideF::load(in[3]), WideF::load(in[4]), WideF::load(in[5])}, eta);
+      got.x.store(wide[0]);
+      got.y.store(wide[1]);
+      got.z.store(wide[2]);
+      for (int i = 0; i < 16; ++i) {
+        const Vec3f one = valid_normal<float>(d[i], Vec3f{0, 1, 0}, wave[i], eta);
+        REQUIRE(as_int(wide[0][i]) == as_int(one.x));
+        REQUIRE(as_int(wide[1][i]) == as_int(one.y));
+        REQUIRE(as_int(wide[2][i]) == as_int(one.z));
+      }
+    }
+  }
+}
+
+// A change of these digests changes every picture of waves: CHANGELOG.md says why.
+SHOAL_ISA_CASE(surfaces_are_pinned, "surfaces have the bits that are written here") {
+  static const std::pair<const char*, const char*> kPinned[] = {
+      {"perlin 4", "0ac447ceadb5403fc0f2a0aa16ca7f7b"},
+      {"gradient-waves", "0060a96e0e24b0ec9481a8523e04fdbf"},
+      {"ripples exponential", "8c57f586cd4c6ea41ac0423df4d95f7a"},
+      {"gerstner 5", "676b3acdcf2a17194a4319d1ac5ac091"},
+  };
+  for (const auto& c : surface_cases::all()) {
+    const auto* pinned =
+        std::find_if(std::begin(kPinned), std::end(kPinned), [&](const auto& p) { return c.name == p.first; });
+    if (pinned == std::end(kPinned)) continue;
+    const WaterSurface surface = prepare_surface(c.settings, 2.25, kBody);
+    Digest digest;
+    for (int block = 0; block < 256; ++block) {
+      const WideF x = to_float(lane_index()) * WideF(1.375f) - WideF(9.0f);
+      const SurfacePoint<WideF> got = surface_at(surface, x, WideF(static_cast<float>(block) * 0.0625f - 7.0f));
+      alignas(64) float out[48];
+      got.height_m.store(out);
+      got.slope_x.store(out + 16);
+      got.slope_z.store(out + 32);
+      digest.add(out, sizeof out);
+    }
+    CAPTURE(c.name);
+    CHECK(digest.hex() == pinned->second);
+  }
+}

@@ -1,0 +1,62 @@
+// A surface prepared for one time: plain data that kernels read (water/surface.h). water/prepare_surface.h fills it.
+#pragma once
+
+#include <cstdint>
+
+#include "core/pod_vector.h"
+
+namespace shoal {
+
+// Gradient noise over an affine image of the plane:
+//   p = (xx, xz; zx, zz) (x, z) + offset, lattice point (cell_x, cell_z) + floor(p).
+struct NoiseLayer {
+  float xx, xz, zx, zz;      // cells a metre
+  float offset_x, offset_z;  // cells, 0 to 1
+  std::int32_t cell_x, cell_z, seed;
+  float amplitude_m;
+  std::int32_t cubic;  // fade curve: 1 cubic, 0 quintic
+};
+
+// A sine of the distance r from a point, softened at the point:
+//   amplitude fade(r) sin(2 pi (turns_per_m r + phase)), r = sqrt(distance^2 + soften2)
+struct RippleSource {
+  float x_m, z_m, soften2_m2;
+  float amplitude_m;  // with the fading in time
+  float turns_per_m, phase_turns;
+  float inverse_reach_per_m;
+  std::int32_t exponential;
+};
+
+// A trochoidal wave: what lies at rest at p moves to p - push sin(phase(p)), height amplitude cos(phase(p)).
+struct TrochoidWave {
+  float turns_x_per_m, turns_z_per_m, phase_turns;
+  float amplitude_m;
+  float push_x_m, push_z_m;
+};
+
+// Heights on a grid, with the unit normals at its points: Champandard's water buffer.
+struct NormalGrid {
+  std::int32_t first;  // in WaterSurface::grid_values: count^2 rows along x of height, normal x, normal y, normal z
+  std::int32_t count;  // points a side
+  float min_x_m, min_z_m, cells_per_m_x, cells_per_m_z;
+};
+
+struct WaterSurface {
+  // The height is the sum of all of these.
+  PodVector<NoiseLayer> noise;
+  PodVector<RippleSource> ripples;
+  PodVector<TrochoidWave> trochoids;
+  PodVector<NormalGrid> normal_grids;
+  PodVector<float> grid_values;
+  float reach_m = 1e6f;  // beyond it in x or z the surface is as at it
+  // Over the body: |height| and the length of the slope are never above, and come within half of them.
+  float height_bound_m = 0;
+  float slope_bound = 0;
+};
+
+// A rectangle of the body's plane, in metres along axis_x and axis_z from its origin.
+struct PlaneExtent {
+  float min_x_m, min_z_m, max_x_m, max_z_m;
+};
+
+}  // namespace shoal
