@@ -18,6 +18,7 @@
 #include "refraction/shadow_map.h"
 #include "refraction/trace/ray_queries.h"
 #include "scene/scene.h"
+#include "water/prepare_surface.h"
 
 namespace shoal {
 
@@ -71,6 +72,7 @@ struct PassBins {
 // One warped pass over the scene for a body of water: refracted, or mirrored.
 struct WaterPass {
   const WaterBody* body = nullptr;
+  const WaterSurface* surface = nullptr;  // at this time; null where it is flat
   std::int32_t index = 0;  // of the body
   BroadPhase optics;       // the body's plane with its true index
   BroadPhase map;          // the map that geometry is drawn with: the method's choice
@@ -105,8 +107,11 @@ struct FrameData {
   std::unique_ptr<RayQueries> rays;                // where the method or the shadows trace rays, else null
   float method_option[kMaxMethodOptions] = {};     // of the method, in the order of its list
   std::vector<std::uint32_t> outline_first_chunk;  // of body b; one more at the end
+  std::vector<SurfaceModel> surface_models;        // of the bodies
 
   // This frame.
+  double time_s = 0;
+  std::vector<WaterSurface> surfaces;  // of the bodies, at this time
   View view;  // of this sample
   Frustum frustum;
   PassSettings direct_pass;

@@ -55,7 +55,7 @@ std::uint32_t direct_alpha(const FrameData& f, const WaterPass*, std::int32_t id
 std::uint32_t mirrored_alpha(const FrameData& f, const WaterPass* water, std::int32_t id, int x_px, int y_px,
                              std::uint32_t cover) {
   const Ray<WideF> ray = block_rays(f.view, make_block(f.grid, x_px, y_px));
-  const ExactRay<WideF> hit = exact_ray(water->optics, ray);
+  const ExactRay<WideF> hit = exact_ray(eye_side(*water), ray);
   const RayDifferential<WideF> at = at_crossing(ray, pixel_ray_differential<WideF>(f.view), hit);
   return alpha_bits(f, {hit.crossing_world, hit.reflected}, reflected_differential(at, hit), id, cover);
 }

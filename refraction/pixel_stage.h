@@ -36,6 +36,11 @@ SHOAL_INLINE Ray<WideF> block_rays(const View& view, const Block& block) {
                    to_float(WideI(block.y_px) + block_y()) + WideF(0.5f));
 }
 
+// The water as the eye's rays meet it, waves and all.
+SHOAL_INLINE WaterSide eye_side(const WaterPass& water) {
+  return water_side(*water.body, water.surface, water.optics.eye_below);
+}
+
 // What a method's rays are at water: its refracted ray and, for all methods alike, the reflected one.
 template <class F>
 struct WaterRays {

@@ -91,6 +91,8 @@ struct Renderer::Impl {
       if (f.rays == nullptr) throw UsageError("this build has no ray tracer; expected a method that is not ray-traced");
     }
     if (!moved) build_shadows(f, kernels, pool);
+    for (const WaterBody& body : scene.waters)
+      f.surface_models.push_back(make_surface_model(body.surface, plane_extent(body)));
     allocate();
   }
 
@@ -178,6 +180,10 @@ struct Renderer::Impl {
     if (moved) move(time_s);
     f.water_pixels = f.subdivision_capped = 0;
     f.ray_counts = RayCounts();
+    f.time_s = time_s;
+    f.surfaces.clear();
+    for (const SurfaceModel& model : f.surface_models) f.surfaces.push_back(prepare_surface(model, time_s));
+    clock.lap("water");
     f.srgb8.resize(static_cast<std::size_t>(f.settings.width_px) * static_cast<std::size_t>(f.settings.height_px) * 3);
     if (wanted != nullptr) digests.shadow(f), clock.skip();
     f.sample_count = f.settings.spp;

@@ -39,6 +39,7 @@ void place_water(FrameData& f, const MethodKernels& method) {
     w = WaterPass{};
     w.body = &bodies[b];
     w.index = static_cast<std::int32_t>(b);
+    w.surface = bodies[b].surface.kind == SurfaceKind::kFlat ? nullptr : &f.surfaces[b];
     w.optics = make_broad_phase(bodies[b], f.view);
     w.map = method.map(bodies[b], f.view);
     const WaterSide side = eye_side(w.optics);

@@ -152,7 +152,7 @@ class Tracer {
   // One side of one body's surface.
   void interface(const Path& path, std::int32_t index, bool from_below, WideM lanes) {
     const WaterPass& water = f.water[static_cast<std::size_t>(index)];
-    const WaterSide side = water_side(*water.body, from_below);
+    const WaterSide side = water_side(*water.body, water.surface, from_below);
     const ExactRay<WideF> at = exact_ray(side, path.ray);
     const RayDifferential<WideF> crossing = at_crossing(path.ray, path.differential, at);
     Path next;

@@ -5,6 +5,8 @@
 #include "raster/ray_triangle.h"
 #include "refraction/broad/broad_phase.h"
 #include "water/optics.h"
+#include "water/surface.h"
+#include "water/valid_normal.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -13,12 +15,16 @@ struct WaterSide {
   Vec3f plane_origin;
   Vec3f normal;   // unit, towards the side that the ray comes from
   float eta = 1;  // n_incident / n_transmitted
+  // Of moving water, whose normals the plane then has; null: flat.
+  const WaterBody* body = nullptr;
+  const WaterSurface* surface = nullptr;
 };
 SHOAL_INLINE WaterSide eye_side(const BroadPhase& bp) {
   return {bp.plane_origin, -bp.far_normal, bp.eye_below ? bp.path.ior : 1.0f / bp.path.ior};
 }
-SHOAL_INLINE WaterSide water_side(const WaterBody& body, bool from_below) {
-  return {body.origin, from_below ? -body.normal : body.normal, from_below ? body.ior : 1.0f / body.ior};
+SHOAL_INLINE WaterSide water_side(const WaterBody& body, const WaterSurface* surface, bool from_below) {
+  return {body.origin, from_below ? -body.normal : body.normal, from_below ? body.ior : 1.0f / body.ior, &body,
+          surface};
 }
 
 template <class F>
@@ -26,7 +32,9 @@ struct ExactRay {
   F t;  // of the crossing along the view ray, in its direction's lengths (perspective: view depth)
   Vec3<F> crossing_world;
   Vec3<F> incident;       // unit, the view ray's direction
-  Vec3<F> normal;         // the plane's, unit, against the ray
+  Vec3<F> plane_normal;   // unit, on the ray's side
+  Vec3<F> normal;         // the surface's, unit, against the ray
+  F height_m;             // of the surface over the plane, along the body's normal: of moving water, else 0
   F cos_incident;         // >= 0
   F cos_transmitted;      // >= 0; 0 where totally reflected
   F eta;                  // n_incident / n_transmitted
@@ -36,6 +44,19 @@ struct ExactRay {
   MaskOf<F> crosses;      // the ray meets the plane in front of the eye
   MaskOf<F> transmitted;  // not totally reflected
 };
+
+// The waves' normal at the crossing, bent to one that the plane can bear (water/valid_normal.h).
+template <class F>
+SHOAL_INLINE void bend_normal(const WaterSide& side, ExactRay<F>& out) {
+  const WaterBody& body = *side.body;
+  const Vec3<F> axis_x = broadcast<F>(body.axis_x), axis_z = broadcast<F>(body.axis_z);
+  const Vec3<F> from_origin = out.crossing_world - broadcast<F>(body.origin);
+  const SurfacePoint<F> at = surface_at<F>(*side.surface, dot(from_origin, axis_x), dot(from_origin, axis_z));
+  const Vec3<F> up = surface_normal<F>(axis_x, broadcast<F>(body.normal), axis_z, at.slope_x, at.slope_z);
+  const bool from_above = dot(side.normal, body.normal) > 0.0f;
+  out.height_m = at.height_m;
+  out.normal = valid_normal<F>(out.incident, out.plane_normal, from_above ? up : -up, out.eta);
+}
 
 // Follows a ray to the plane of the water.
 //
@@ -57,14 +78,16 @@ SHOAL_INLINE ExactRay<F> exact_ray(const WaterSide& side, Ray<F> ray) {
   out.t = select(out.crosses, t, F(0.0f));
   out.crossing_world = ray.origin_world + ray.direction_world * out.t;
   out.incident = normalize(ray.direction_world);
-  out.normal = n;
-  out.cos_incident = clamp(-dot(out.incident, n), F(0.0f), F(1.0f));
+  out.plane_normal = out.normal = n;
+  out.height_m = F(0.0f);
   out.eta = F(side.eta);
-  const Refraction<F> refraction = refract(out.incident, n, out.eta);
+  if (side.surface != nullptr) bend_normal(side, out);
+  out.cos_incident = clamp(-dot(out.incident, out.normal), F(0.0f), F(1.0f));
+  const Refraction<F> refraction = refract(out.incident, out.normal, out.eta);
   out.refracted = refraction.direction;
   out.cos_transmitted = refraction.cos_transmitted;
   out.transmitted = refraction.valid;
-  out.reflected = reflect(out.incident, n);
+  out.reflected = reflect(out.incident, out.normal);
   out.reflectance = fresnel_dielectric(out.cos_incident, out.eta);
   return out;
 }
@@ -79,18 +102,19 @@ SHOAL_INLINE ExactRay<F> exact_ray(const BroadPhase& bp, Ray<F> ray) {
 //
 //   ray, differential  the view ray and its own differential (pixel_ray_differential)
 //   hit                exact_ray of it; where it does not cross, all derivatives are 0
-// Source: Igehy (1999), eqs. 3 and 10-12; the plane's normal is constant, so no shape operator appears.
+// Source: Igehy (1999), eqs. 3 and 10-12. Differs: moving water's normals count as constant within a pixel's footprint,
+// for every method and the truth alike, so no shape operator appears.
 template <class F>
 SHOAL_INLINE RayDifferential<F> at_crossing(Ray<F> ray, RayDifferential<F> differential, const ExactRay<F>& hit) {
   const F zero = F(0.0f);
-  const F approach = dot(ray.direction_world, hit.normal);
+  const F approach = dot(ray.direction_world, hit.plane_normal);
   const F inv_approach = select(hit.crosses, F(1.0f), zero) / select(hit.crosses, approach, F(1.0f));
   const F len = length(ray.direction_world);
   const F inv_length = select(hit.crosses, F(1.0f), zero) / select(hit.crosses, len, F(1.0f));
   const F on = select(hit.crosses, F(1.0f), zero);
   const auto origin = [&](Vec3<F> d_origin, Vec3<F> d_direction) {
     const Vec3<F> moved = d_origin + d_direction * hit.t;
-    return (moved - ray.direction_world * (dot(moved, hit.normal) * inv_approach)) * on;
+    return (moved - ray.direction_world * (dot(moved, hit.plane_normal) * inv_approach)) * on;
   };
   const auto direction = [&](Vec3<F> d_direction) {
     return (d_direction - hit.incident * dot(hit.incident, d_direction)) * inv_length;
