@@ -1,6 +1,8 @@
 // Narrow phase, last step (refraction/narrow/confirm_hit.h).
 #include "refraction/narrow/confirm_hit.h"
 
+#include "refraction/pixel_stage.h"
+
 namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
@@ -27,21 +29,14 @@ SHOAL_INLINE TriangleTest test_triangles(const GeometryView& g, const Ray<WideF>
   return {hit.t, inside};
 }
 
-// Ids of sixteen pixels, any place of the frame.
-SHOAL_INLINE WideI ids_at(const VisibilityBuffer& visibility, WideI x, WideI y, WideM lanes) {
-  const WideI block = (y >> 2) * WideI(visibility.grid.blocks_x) + (x >> 2);
-  const WideI slot = (block << 4) + ((y & WideI(3)) << 2) + (x & WideI(3));
-  return gather(visibility.id.data(), slot, lanes, WideI(kNoId));
-}
-
 }  // namespace
 
-WideI confirm_hit(const GeometryView& g, const VisibilityBuffer& visibility, const Ray<WideF>& ray, WideI own,
-                  WideI x_px, WideI y_px, WideM lanes) {
+ConfirmedHit confirm_hit(const GeometryView& g, const VisibilityBuffer& visibility, const Ray<WideF>& ray, WideI own,
+                         WideI x_px, WideI y_px, WideM lanes) {
   const WideM drawn = lanes & (own >= WideI(0)) & (own != WideI(kNoId));
   WideM missing = lanes;
   if (any(drawn)) missing = lanes & !test_triangles(g, ray, own, drawn).inside;
-  if (none(missing)) return own;
+  if (none(missing)) return {own, lanes};
   WideI best = own;
   WideF best_t(3e38f);
   const WideI x_last(visibility.grid.width_px - 1), y_last(visibility.grid.height_px - 1);
@@ -49,7 +44,7 @@ WideI confirm_hit(const GeometryView& g, const VisibilityBuffer& visibility, con
     if (i == 4) continue;
     const WideI x = x_px + WideI(i % 3 - 1), y = y_px + WideI(i / 3 - 1);
     const WideM there = missing & (x >= WideI(0)) & (x <= x_last) & (y >= WideI(0)) & (y <= y_last);
-    const WideI id = ids_at(visibility, x, y, there);
+    const WideI id = gather(visibility.id.data(), pixel_slots(visibility.grid, x, y), there, WideI(kNoId));
     const WideM candidate = there & (id >= WideI(0)) & (id != WideI(kNoId)) & (id != own) & (id != best);
     if (none(candidate)) continue;
     const TriangleTest test = test_triangles(g, ray, id, candidate);
@@ -57,7 +52,7 @@ WideI confirm_hit(const GeometryView& g, const VisibilityBuffer& visibility, con
     best = select(better, id, best);
     best_t = select(better, test.t, best_t);
   }
-  return best;
+  return {best, (lanes & !missing) | (missing & (best_t < WideF(3e38f)))};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

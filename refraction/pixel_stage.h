@@ -31,6 +31,12 @@ SHOAL_INLINE void for_each_block(const FrameGrid& grid, std::size_t region, Body
     for (int x = x0; x < x1; x += kBlockSize) body(make_block(grid, x, y));
 }
 
+// Slots of sixteen pixels, any place of the frame, in blocked buffers.
+SHOAL_INLINE WideI pixel_slots(const FrameGrid& grid, WideI x_px, WideI y_px) {
+  const WideI block = (y_px >> 2) * WideI(grid.blocks_x) + (x_px >> 2);
+  return (block << 4) + ((y_px & WideI(3)) << 2) + (x_px & WideI(3));
+}
+
 SHOAL_INLINE Ray<WideF> block_rays(const View& view, const Block& block) {
   return pixel_ray(view, to_float(WideI(block.x_px) + block_x()) + WideF(0.5f),
                    to_float(WideI(block.y_px) + block_y()) + WideF(0.5f));

@@ -78,6 +78,11 @@ bool find_region(FrameData& f, const FrameKernels& kernels, WaterPass& water, Th
           x0 = std::min(x0, i), y0 = std::min(y0, j), x1 = std::max(x1, i), y1 = std::max(y1, j);
         }
     }
+  // Rays that waves bend look farther.
+  if (water.surface != nullptr) {
+    std::fill(region.begin(), region.end(), std::uint8_t{1});
+    x0 = y0 = 0, x1 = nx - 1, y1 = ny - 1;
+  }
   std::fill(f.tile_active.begin(), f.tile_active.end(), std::uint8_t{0});
   const BinGrid& grid = f.bin_grid;
   for (int ty = 0; ty < grid.tiles_y; ++ty)

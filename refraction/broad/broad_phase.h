@@ -128,6 +128,14 @@ SHOAL_INLINE Vec3<F> virtual_position(const BroadPhase& bp, Vec3<F> position_wor
   return position_world + n * (v - far_m);
 }
 
+// Where a world position appears in the plane as a mirror.
+template <class F>
+SHOAL_INLINE Vec3<F> mirrored_position(const BroadPhase& bp, Vec3<F> p) {
+  const Vec3<F> n = broadcast<F>(bp.normal);
+  const F height = dot(p - broadcast<F>(bp.plane_origin), n);
+  return p - n * (height + height);
+}
+
 // The whole path to a point, for `shoal probe` and absorption.
 //   position_world  finite
 template <class F>

@@ -6,6 +6,7 @@
 //     static BroadPhase map(const WaterBody&, const View&);          // the broad phase: geometry to virtual positions
 //     template <class F> static WaterRays<F> rays(const WaterPass&,  // the ray that a water pixel follows
 //         Ray<F> view_ray, RayDifferential<F> differential);
+//     static constexpr bool kFollowsWaves = true;                    // that ray is bent by the waves' normals
 //   };
 //
 // MethodStages<MyMethod>::kernels() makes the frame's stages of it.
@@ -13,6 +14,7 @@
 
 #include "refraction/kernels.h"
 #include "refraction/narrow/confirm_hit.h"
+#include "refraction/narrow/march_hit.h"
 #include "refraction/pixel_stage.h"
 #include "refraction/shade_block.h"
 
@@ -24,7 +26,10 @@ struct MethodStages {
   static std::uint32_t refracted_alpha(const FrameData& f, const WaterPass* water, std::int32_t id, int x_px, int y_px,
                                        std::uint32_t cover) {
     const Ray<WideF> view_ray = block_rays(f.view, make_block(f.grid, x_px, y_px));
-    const WaterRays<WideF> r = M::template rays<WideF>(*water, view_ray, pixel_ray_differential<WideF>(f.view));
+    // The refracted layer is what flat water shows, whatever its waves do.
+    WaterPass still = *water;
+    still.surface = nullptr;
+    const WaterRays<WideF> r = M::template rays<WideF>(still, view_ray, pixel_ray_differential<WideF>(f.view));
     return alpha_bits(f, r.refracted, r.refracted_differential, id, cover);
   }
 
@@ -37,12 +42,16 @@ struct MethodStages {
       const WaterRays<WideF> rays = M::template rays<WideF>(water, block_rays(f.view, block), differential);
       const WideI x = WideI(block.x_px) + block_x(), y = WideI(block.y_px) + block_y();
       const WideI own = WideI::load(f.refracted.id.data() + block.offset);
-      const WideI id =
-          confirm_hit(f.geometry, f.refracted, rays.refracted, own, x, y, here & rays.at_surface.transmitted);
+      const WideM through = here & rays.at_surface.transmitted;
+      const bool bent = water.surface != nullptr && M::kFollowsWaves;
+      const WideI id = bent ? march_hit(f, Layer{f.refracted, water, false}, rays.refracted, own, through)
+                            : confirm_hit(f.geometry, f.refracted, rays.refracted, own, x, y, through).id;
       store_masked(f.hits.refracted_id.data() + block.offset, id, here);
       if (!water.mirrors) return;
       const WideI mirrored = WideI::load(f.mirrored.id.data() + block.offset);
-      const WideI mirror_id = confirm_hit(f.geometry, f.mirrored, rays.reflected, mirrored, x, y, here);
+      const WideI mirror_id = water.surface != nullptr
+                                  ? march_hit(f, Layer{f.mirrored, water, true}, rays.reflected, mirrored, here)
+                                  : confirm_hit(f.geometry, f.mirrored, rays.reflected, mirrored, x, y, here).id;
       store_masked(f.hits.mirrored_id.data() + block.offset, mirror_id, here);
     });
   }

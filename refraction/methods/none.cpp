@@ -7,6 +7,7 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 struct None {
+  static constexpr bool kFollowsWaves = false;
   // Index 1 makes the broad phase the identity.
   static BroadPhase map(const WaterBody& body, const View& view) {
     return make_broad_phase(body.origin, body.normal, 1.0f, view);

@@ -10,6 +10,7 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 struct TwoPhase {
+  static constexpr bool kFollowsWaves = true;
   static BroadPhase map(const WaterBody& body, const View& view) { return make_broad_phase(body, view); }
 
   template <class F>
