@@ -18,8 +18,10 @@ CirclePoint circle_point(std::uint64_t i, std::uint64_t n) {
   const double x = static_cast<double>(turned) / static_cast<double>(n) * 0.78539816339744830962;
   const double x2 = x * x;
   double sine = 0, cosine = 0;
-  for (int k = 15; k >= 1; k -= 2) sine = 1 - sine * x2 / static_cast<double>((k + 1) * k);
-  for (int k = 16; k >= 2; k -= 2) cosine = 1 - cosine * x2 / static_cast<double>(k * (k - 1));
+  for (int k = 18; k >= 2; k -= 2) {
+    sine = 1 - sine * x2 / static_cast<double>(k * (k + 1));
+    cosine = 1 - cosine * x2 / static_cast<double>(k * (k - 1));
+  }
   sine *= x;
   switch (octant) {
     case 0:
@@ -77,26 +79,26 @@ Vec3f sample_map(const FloatMap& map, Vec3f direction) {
 
 namespace {
 
-// Bilinear; the picture's columns go round, its rows end.
+// Bilinear; the picture goes round, and beyond a pole is the row's other half.
 Vec3f look_up(const EquirectImage& image, Vec3f direction) {
   const auto width = static_cast<float>(image.width), height = static_cast<float>(image.height);
   const float turn = det_atan2(direction.z, direction.x) * (0.5f / kPi) + 0.5f;
   const float ring = sqrt(direction.x * direction.x + direction.z * direction.z);
   const float fall = det_atan2(ring, direction.y) / kPi;
-  const float x = turn * width - 0.5f, y = min(max(fall * height - 0.5f, 0.0f), height - 1.0f);
-  const float left = floor(x);
-  const float tx = x - left;
-  const int row0 = static_cast<int>(y), row1 = min(row0 + 1, image.height - 1);
-  const float ty = y - static_cast<float>(row0);
-  const int column = static_cast<int>(left);  // -1 to width - 1
-  const int column0 = (column + image.width) % image.width, column1 = (column + 1) % image.width;
-  const auto texel = [&](int column_x, int row) {
-    return &image.rgb[(static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
-                       static_cast<std::size_t>(column_x)) *
+  const float x = turn * width - 0.5f, y = min(max(fall * height - 0.5f, -0.5f), height - 0.5f);
+  const float left = floor(x), top = floor(y);
+  const float tx = x - left, ty = y - top;
+  const int column = static_cast<int>(left), row = static_cast<int>(top);  // -1 to width - 1, -1 to height - 1
+  const auto texel = [&](int texel_x, int texel_y) {
+    const bool beyond = texel_y < 0 || texel_y >= image.height;
+    const int turned = (texel_x + image.width + (beyond ? image.width / 2 : 0)) % image.width;
+    const int clamped = min(max(texel_y, 0), image.height - 1);
+    return &image.rgb[(static_cast<std::size_t>(clamped) * static_cast<std::size_t>(image.width) +
+                       static_cast<std::size_t>(turned)) *
                       3];
   };
-  const float *a = texel(column0, row0), *b = texel(column1, row0), *c = texel(column0, row1),
-              *d = texel(column1, row1);
+  const float *a = texel(column, row), *b = texel(column + 1, row);
+  const float *c = texel(column, row + 1), *d = texel(column + 1, row + 1);
   float out[3];
   for (int i = 0; i < 3; ++i) {
     const float above = a[i] + (b[i] - a[i]) * tx, below = c[i] + (d[i] - c[i]) * tx;

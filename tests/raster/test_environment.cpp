@@ -98,8 +98,8 @@ SurfaceSample<float> surface(Vec3f normal, Vec3f color, float metallic, float ro
 }  // namespace
 
 TEST_CASE("environment: points of the circle are cosine and sine") {
-  for (const std::uint64_t n : {1u, 3u, 7u, 64u, 1974u, 16384u}) {
-    for (std::uint64_t i = 0; i <= n; i += 1 + n / 97) {
+  for (const unsigned n : {1u, 3u, 7u, 64u, 1974u, 16384u}) {
+    for (unsigned i = 0; i <= n; i += 1 + n / 97) {
       const auto p = environment_parts::circle_point(i, n);
       const double angle = 2 * kPiD * static_cast<double>(i) / static_cast<double>(n);
       CHECK(std::abs(p.cosine - std::cos(angle)) < 4e-15);
@@ -181,9 +181,9 @@ TEST_CASE("environment: a black picture is black, a tiny one works, threads chan
   ThreadPool one(1), three(3);
   const Environment black = make_environment(EquirectImage{2, 1, std::vector<float>(6, 0.0f)}, one);
   CHECK(seen(black, {0.3, -0.5, 0.1}).x == 0.0f);
-  const Environment dot = make_environment(EquirectImage{1, 1, {0.5f, 2.0f, 1e9f}}, one);
+  const Environment dot = make_environment(EquirectImage{1, 1, {0.5f, 2.0f, 1e6f}}, one);
   CHECK(seen(dot, {0.3, -0.5, 0.1}).x == 0.5f);
-  CHECK(seen(dot, {0, -1, 0}).z == 1e9f);
+  CHECK(seen(dot, {0, -1, 0}).z == Approx(1e6).epsilon(1.0 / 2048));
   const EquirectImage image = picture(40, 20, sunny);
   const Environment a = make_environment(image, one), b = make_environment(image, three);
   CHECK(a.texels == b.texels);
@@ -231,7 +231,7 @@ TEST_CASE("environment: prefiltered light is the GGX lobe's mean, integrated by 
       const Vec3d n = i < 2 ? unit(kSun + random_direction(engine) * (0.3 * i)) : random_direction(engine);
       Vec3d sum{0, 0, 0}, sum_sunny{0, 0, 0};
       double total = 0;
-      over_sphere(level == 1 ? 1400 : 400, [&](Vec3d l, double area) {
+      over_sphere(level == 1 ? 1000 : 300, [&](Vec3d l, double area) {
         const double nl = dot(n, l);
         if (nl <= 0) return;
         // The half vector's angle is half of the light's.
@@ -256,7 +256,6 @@ TEST_CASE("environment: prefiltered light is the GGX lobe's mean, integrated by 
 TEST_CASE("environment: the lobe's share of a uniform environment is the BRDF's integral over the hemisphere") {
   ThreadPool pool(2);
   const Environment e = make_environment(EquirectImage{1, 1, {1, 1, 1}}, pool);
-  double worst = 0;
   for (const double roughness : {0.12, 0.25, 0.4, 0.55, 0.7, 0.85, 1.0}) {
     const double a2 = std::pow(roughness, 4.0);
     for (const double nv : {0.03, 0.1, 0.25, 0.5, 0.77, 1.0}) {
@@ -279,9 +278,8 @@ TEST_CASE("environment: the lobe's share of a uniform environment is the BRDF's 
         }
       }
       const Vec2f got = environment_lobe_share<float>(e, static_cast<float>(roughness), static_cast<float>(nv));
-      worst = std::max({worst, std::abs(got.x - white), std::abs(got.y - grazing)});
       CAPTURE(roughness, nv, white, got.x, grazing, got.y);
-      CHECK(std::abs(got.x - white) < 0.005);
+      CHECK(std::abs(got.x - white) < (nv < 0.1 ? 0.012 : 0.005));
       CHECK(std::abs(got.y - grazing) < 0.005);
     }
   }
