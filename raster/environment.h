@@ -20,7 +20,8 @@ inline constexpr int kLobeTableSize = 32;
 // The octahedron |x| + |y| + |z| = 1 is seen from +y, its lower half folded out over the corners: a direction becomes a
 // texel by one division, and bilinear filtering has no seam, for every level has a border of one texel, which repeats
 // what lies across the edge. A texel is two words, R | G << 16 and B: each channel a float of 5 bits of exponent and 11
-// of mantissa, in units of `scale`. Error: 2^-11 of a channel, and 2^-31 of the brightest.
+// of mantissa, in units of `scale`. Error: 2^-11 of a channel, and 2^-31 of the brightest; along the octahedron's
+// creases, the planes x = 0, y = 0 and z = 0, what is seen is shifted by up to half a texel.
 struct Environment {
   // By level, sixteen entries for a lookup a lane; those past the last repeat it.
   alignas(64) std::int32_t size[16] = {};         // texels a side, without the border
