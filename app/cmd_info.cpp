@@ -59,6 +59,7 @@ Json info_json(const std::string& name, const LoadedScene& loaded) {
   json["materials"] = scene.materials.materials.size();
   json["textures"] = scene.materials.textures.size();
   json["lights"] = scene.lights.size();
+  json["environment"] = scene.environment_file.empty() ? Json(nullptr) : Json(scene.environment_file);
   json["skins"] = scene.skins.size();
   json["animations"] = Json::array();
   for (const Animation& animation : scene.animations) json["animations"].push_back(animation.name);

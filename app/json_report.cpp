@@ -66,7 +66,7 @@ void add_water_keys(const RenderScene& scene, Json& settings) {
 }
 
 Json background_json(const Background& background) {
-  if (background.kind == Background::Kind::kSky) return "environment";
+  if (background.kind != Background::Kind::kColor) return "environment";
   return json_vector(background.color);
 }
 
@@ -140,8 +140,9 @@ Json water_json(const WaterBody& body) {
   return json;
 }
 
-Json settings_json(const Options& options, const RenderScene& scene, const PlacedCamera& camera, int threads) {
+Json settings_json(const Options& options, const LoadedScene& loaded, const PlacedCamera& camera, int threads) {
   const FrameSettings& frame = options.frame;
+  const RenderScene& scene = loaded.render;
   Json s = Json::object();
   s["method"] = frame.method;
   add_method_options(frame, s);
@@ -164,6 +165,8 @@ Json settings_json(const Options& options, const RenderScene& scene, const Place
   s["exposure"] = json_float(frame.exposure_stops);
   s["tonemap"] = tone_map_name(frame.tone_map);
   s["background"] = background_json(scene.lighting.background);
+  s["environment"] = loaded.environment_file.empty() ? Json(nullptr) : Json(loaded.environment_file);
+  s["cache"] = options.scene.cache.empty() ? Json(nullptr) : Json(options.scene.cache);
   s["aov"] = Json::array();
   for (const Aov aov : options.aovs) {
     for (const AovInfo& info : aov_infos()) {
@@ -188,7 +191,7 @@ Json render_report(const Options& options, const LoadedScene& loaded, const Plac
   r["tile"] = frame.tile_px;
   r["isa"] = isa_name(frame.isa);
   r["spp"] = frame.spp;
-  r["settings"] = settings_json(options, loaded.render, camera, threads);
+  r["settings"] = settings_json(options, loaded, camera, threads);
   r["version"] = SHOAL_VERSION;
   r["compiler"] = compiler_name();
   r["load_ms"] = json_ms(times.load_ms);

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
 #include "app/messages.h"
 #include "core/error.h"
+#include "core/thread_pool.h"
+#include "scene/environment.h"
 #include "scene/gltf.h"
 
 namespace shoal::app {
@@ -63,9 +66,26 @@ void override_background(const SceneOptions& options, Scene& scene) {
     scene.background = Background{};
     scene.background.kind = Background::Kind::kColor;
     scene.background.color = options.background_color;
-  } else if (options.background == BackgroundChoice::kEnvironment && scene.background.kind != Background::Kind::kSky) {
+  } else if (options.background == BackgroundChoice::kEnvironment &&
+             scene.background.kind == Background::Kind::kColor) {
     scene.has_background = false;  // a plain colour is no environment: the default sky
   }
+}
+
+// The picture that surrounds the scene becomes its background, unless a colour is asked for: then nothing sees it.
+void surround(const SceneOptions& options, bool quiet, LoadedScene& loaded) {
+  const std::string& file = options.environment ? *options.environment : loaded.scene.environment_file;
+  if (!options.draws || options.background == BackgroundChoice::kColor || file.empty()) return;
+  constexpr int kMostThreads = 256;
+  ThreadPool pool(std::min(options.threads > 0 ? options.threads : available_threads(), kMostThreads));
+  std::string warning;
+  Scene& scene = loaded.scene;
+  scene.has_background = true;
+  scene.background = Background{};
+  scene.background.environment = load_environment(file, options.cache, pool, warning);
+  scene.background.kind = Background::Kind::kEnvironment;
+  loaded.environment_file = file;
+  if (!quiet && !warning.empty()) warn(file, warning);
 }
 
 }  // namespace
@@ -102,6 +122,7 @@ LoadedScene load_scene(const SceneOptions& options, bool quiet) {
   LoadedScene loaded;
   const auto load_begin = Clock::now();
   loaded.scene = read_scene(options.name, options.triangles);
+  surround(options, quiet, loaded);
   loaded.load_ms = milliseconds_since(load_begin);
 
   Scene& scene = loaded.scene;

@@ -13,6 +13,7 @@ namespace shoal::app {
 struct LoadedScene {
   Scene scene;  // without its meshes once `render` is built, unless they are asked for
   RenderScene render;
+  std::string environment_file;  // what surrounds it; empty: a sky or a colour
   double load_ms = 0;   // reading or generating
   double build_ms = 0;  // world space and chunks
 };

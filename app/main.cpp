@@ -77,6 +77,10 @@ void add_frame_options(CLI::App& command, RawOptions& raw) {
   add("--background", raw.background, "R,G,B|environment",
       "what every ray sees that leaves the scene: linear light, or "
       "the scene's environment (the default sky where it has none); the scene's");
+  add("--environment", raw.environment, "FILE",
+      "equirectangular picture (.hdr .exr .png .jpg) that surrounds and lights the scene; the scene's");
+  add("--cache", raw.cache, "DIR", "where filtered environments are kept; $XDG_CACHE_HOME/shoal or ~/.cache/shoal");
+  command.add_flag("--no-cache", raw.no_cache, "filter the environment anew and keep nothing");
   add("--aov", raw.aov, "A,B", "more layers in an EXR: depth, normal, hit.position, id.triangle, ...");
   add("--json", raw.json, "FILE", "the report; - is standard output, after the digests");
   command.add_flag("--digest", raw.digest, "print `digest STAGE HEX` for each stage, frame after frame");

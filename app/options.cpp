@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "scene/environment.h"
 
 namespace shoal::app {
 namespace {
@@ -151,7 +152,7 @@ void read_background(const std::string& text, SceneOptions& scene) {
   if (text == "environment") {
     scene.background = BackgroundChoice::kEnvironment;
   } else if (has_ending(text, ".hdr") || has_ending(text, ".exr")) {
-    not_yet("--background", text, {"R,G,B", "environment"});
+    throw UsageError(fmt::format("--background '{}': is a file; expected --environment {}", text, text));
   } else {
     scene.background = BackgroundChoice::kColor;
     scene.background_color = read_triple("--background", text, 0.0, kMaxRadiance);
@@ -277,6 +278,15 @@ void read_scene(const RawOptions& raw, SceneOptions& scene) {
     scene.triangles = static_cast<std::uint64_t>(read_integer("--triangles", *raw.triangles, 1, kMaxTriangles));
   }
   if (raw.background) read_background(*raw.background, scene);
+  if (raw.environment && raw.environment->empty())
+    throw UsageError("--environment '': not a file's name; expected a picture");
+  scene.environment = raw.environment;
+}
+
+void read_cache(const RawOptions& raw, SceneOptions& scene) {
+  if (raw.cache && raw.no_cache) throw UsageError("--cache, --no-cache: exclude each other; expected one of them");
+  if (raw.cache && raw.cache->empty()) throw UsageError("--cache '': not a folder's name; expected one");
+  if (!raw.no_cache) scene.cache = raw.cache ? *raw.cache : default_cache_folder();
 }
 
 }  // namespace
@@ -290,6 +300,9 @@ Options read_options(const RawOptions& raw) {
   read_frame_settings(raw, options.frame);
   read_run(raw, options);
   read_scene(raw, options.scene);
+  read_cache(raw, options.scene);
+  options.scene.draws = true;
+  options.scene.threads = options.frame.threads;
   read_sets(raw, options);
   options.camera = raw.camera;
   read_outputs(raw, options);

@@ -18,9 +18,10 @@ struct RawOptions {
   std::string scene;
   std::optional<std::string> output, json;
   std::optional<std::string> method, methods, reference, size, spp, camera, time, step, frames, warmup, repeat, threads,
-      tile, isa, anisotropy, shadows, shadow_map, reflections, exposure, tonemap, background, aov, triangles;
+      tile, isa, anisotropy, shadows, shadow_map, reflections, exposure, tonemap, background, environment, cache, aov,
+      triangles;
   std::vector<std::string> set;  // KEY=VALUE
-  bool digest = false, quiet = false;
+  bool digest = false, quiet = false, no_cache = false;
 };
 
 // Water keys given with --set: they go over every body of the scene.
@@ -42,7 +43,11 @@ struct SceneOptions {
   std::optional<std::uint64_t> triangles;  // of a built-in one
   WaterOverrides water;
   BackgroundChoice background = BackgroundChoice::kScene;
-  Vec3f background_color{0, 0, 0};  // linear, kColor
+  Vec3f background_color{0, 0, 0};         // linear, kColor
+  bool draws = false;                      // false: nothing is drawn, so the environment is not read
+  std::optional<std::string> environment;  // a picture's file, instead of the scene's
+  std::string cache;                       // folder for filtered environments; empty: none
+  int threads = 0;                         // as FrameSettings::threads
 };
 
 struct Options {

@@ -1,5 +1,5 @@
-// Light on a surface: glTF's metallic-roughness material under directional, point and spot lights and a hemisphere of
-// ambient light.
+// Light on a surface: glTF's metallic-roughness material under directional, point and spot lights, and a hemisphere of
+// ambient light or an environment.
 // One function, for the rasterizer and the ray tracer alike.
 #pragma once
 
@@ -96,11 +96,18 @@ SHOAL_INLINE Vec2<F> environment_brdf(F roughness, F n_dot_v) {
   return {scale, max(bias, F(0.0f))};
 }
 
-// Ambient light reflected towards the viewer: Lambert under the hemisphere, and the specular lobe's mean of the sky
-// round the mirrored direction, which goes from the sky itself (smooth) to the hemisphere's (rough).
+// Ambient light reflected towards the viewer: an environment's (raster/environment_sample.h), or Lambert under the
+// hemisphere and the specular lobe's mean of the sky round the mirrored direction, which goes from the sky itself
+// (smooth) to the hemisphere's (rough).
 template <class F>
 SHOAL_INLINE Vec3<F> reflect_ambient(const SurfaceSample<F>& s, const Reflectance<F>& r, const Lighting& lighting) {
   const Vec3<F> mirrored = r.normal * (r.n_dot_v + r.n_dot_v) - r.view;
+  if (lighting.background.kind == Background::Kind::kEnvironment) {
+    Vec3<F> reflected;
+    reflect_environment<F>(*lighting.background.environment,
+                           {r.diffuse, r.f0, r.normal, mirrored, s.roughness, r.n_dot_v}, reflected);
+    return reflected;
+  }
   Vec3<F> around = ambient_toward<F>(lighting, mirrored);
   if (any(s.roughness < F(1.0f)))
     around = lerp(background_gradient<F>(lighting.background, mirrored), around, s.roughness);

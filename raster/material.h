@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/vec.h"
+#include "raster/environment.h"
 #include "raster/texture.h"
 #include "raster/uv_map.h"
 
@@ -69,12 +71,13 @@ struct PunctualLight {
 
 // What every ray sees that leaves the scene, and the ambient light that comes from it.
 struct Background {
-  enum class Kind : std::uint8_t { kColor, kSky } kind = Kind::kColor;
+  enum class Kind : std::uint8_t { kColor, kSky, kEnvironment } kind = Kind::kColor;
   Vec3f color{0, 0, 0};  // linear, kColor
   // kSky: a clear-day gradient between horizon and zenith, ground below, and the sun's disc and glow.
   Vec3f zenith{0.18f, 0.38f, 0.78f}, horizon{0.72f, 0.83f, 0.94f}, ground{0.35f, 0.33f, 0.30f};
   Vec3f to_sun_world{0, 1, 0};
   Vec3f sun{0, 0, 0};  // radiance scale of disc and glow; 0 hides it
+  std::shared_ptr<const Environment> environment;  // kEnvironment, and there only: never null then
 };
 
 struct Lighting {

@@ -1,4 +1,4 @@
-// What a ray sees that leaves the scene: one colour, or a clear-day sky.
+// What a ray sees that leaves the scene: one colour, a clear-day sky, or a picture of the surroundings.
 //
 // The sky is a picture, not a model of scattering: a gradient from horizon to zenith that whitens towards the horizon,
 // where a calm water surface reflects the most of it, ground below, a sun disc and three widths of glow. It has no
@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/vec_lanes.h"
+#include "raster/environment_sample.h"
 #include "raster/material.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
@@ -24,12 +25,18 @@ SHOAL_INLINE F above_horizon(F y) {
 }
 }  // namespace sky_detail
 
-// The sky without its sun, or the colour: what rough surfaces reflect (the sun reaches them as a light of its own).
+// The sky without its sun, the colour or the picture: what rough surfaces reflect (the sun reaches them as a light of
+// its own).
 //   direction_world  unit, away from the scene; +y is up
 // Returns linear radiance, continuous in the direction.
 template <class F>
 SHOAL_INLINE Vec3<F> background_gradient(const Background& background, Vec3<F> direction_world) {
   if (background.kind == Background::Kind::kColor) return broadcast<F>(background.color);
+  if (background.kind == Background::Kind::kEnvironment) {
+    Vec3<F> seen;
+    environment_radiance<F>(*background.environment, direction_world, seen);
+    return seen;
+  }
   const F y = min(max(direction_world.y, F(-1.0f)), F(1.0f));
   const F down = F(1.0f) - max(y, F(0.0f));
   const F down2 = down * down, down4 = down2 * down2, down16 = (down4 * down4) * (down4 * down4);
@@ -47,7 +54,7 @@ template <class F>
 SHOAL_INLINE Vec3<F> background_radiance(const Background& background, Vec3<F> direction_world) {
   const Vec3<F> sky = background_gradient<F>(background, direction_world);
   const Vec3f s = background.sun;
-  if (background.kind == Background::Kind::kColor || (s.x == 0.0f && s.y == 0.0f && s.z == 0.0f)) return sky;
+  if (background.kind != Background::Kind::kSky || (s.x == 0.0f && s.y == 0.0f && s.z == 0.0f)) return sky;
 
   // Squared chord to the sun, 2 - 2 cos: exact enough near the disc, where the cosine itself is not.
   const Vec3<F> offset = direction_world - broadcast<F>(background.to_sun_world);

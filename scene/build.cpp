@@ -326,7 +326,10 @@ Lighting building::make_lighting(const Scene& scene) {
       lighting.directional.push_back({direction, spec.color * spec.intensity});
     }
   }
-  if (lit && lighting.directional.empty() && lighting.punctual.empty())
+  const bool surrounded = scene.has_background && scene.background.kind == Background::Kind::kEnvironment;
+  if (surrounded && !scene.background.environment)
+    throw Error(scene.name + ": the background is an environment without one; expected it built");
+  if (lit && !surrounded && lighting.directional.empty() && lighting.punctual.empty())
     lighting.directional.push_back({-kDefaultToSun, kDefaultSunIrradiance});
 
   if (scene.has_background) {
@@ -339,7 +342,7 @@ Lighting building::make_lighting(const Scene& scene) {
       lighting.background.sun = sun.irradiance;
     }
   }
-  if (lit) ambient_from_background(lighting);
+  if (lit && !surrounded) ambient_from_background(lighting);
   return lighting;
 }
 

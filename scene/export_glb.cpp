@@ -171,7 +171,7 @@ void GlbWriter::add_scene() {
   for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
     if (scene_.nodes[i].parent == kNoIndex) scene["nodes"].push_back(i);
   }
-  if (scene_.has_background) {
+  if (scene_.has_background && scene_.background.kind != Background::Kind::kEnvironment) {
     const Background& background = scene_.background;
     if (background.kind == Background::Kind::kColor) {
       scene["extras"]["background"] = exact(background.color);

@@ -14,7 +14,7 @@ namespace shoal {
 // that no material uses, the sampler of a material without texture); and, of a scene without animations, the matrix of
 // a node whose parent is not the identity, which is exact where the parent is well-conditioned and else right to
 // double's rounding. 8-bit textures are embedded as PNG; linear ones are marked by `extras.linear` of the image, float
-// ones are OpenEXR, which other viewers do not read. Water and background go to `extras`.
+// ones are OpenEXR, which other viewers do not read. Water and background go to `extras`, an environment does not.
 //
 //   scene  valid (scene/scene.h), nodes depth first; every primitive with at least one triangle
 //   path   appears whole (written beside, then renamed) or stays as it was

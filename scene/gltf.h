@@ -41,7 +41,8 @@ struct LoadLimits {
 // trusted (tests/scene/test_gltf_bad.cpp).
 // Water: `extras.water` of a node, or flat keys such as `water_ior` (docs/scenes.md).
 // Background: `extras.background` of the scene or the asset: "sky", or [r, g, b], or {"type": "sky"} with any of
-// zenith, horizon, ground, sun ([r, g, b], linear) and to_sun (a unit vector).
+// zenith, horizon, ground, sun ([r, g, b], linear) and to_sun (a unit vector). `extras.environment` of the scene is the
+// URI of a picture's file: Scene::environment_file.
 // Source: The Khronos Group, glTF 2.0 specification (2021).
 // Differs: a primitive restart index, a count of indices that makes no whole triangle, and misaligned data are errors.
 Scene load_gltf(const std::string& path, const LoadLimits& limits = {});

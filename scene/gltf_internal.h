@@ -98,5 +98,6 @@ void read_meshes(Document& document, Scene& scene, const std::vector<UvSource>& 
 void read_nodes(Document& document, Scene& scene);
 bool read_water(Document& document, const tinygltf::Value& extras, const std::string& label, WaterSpec& water);
 void read_background(Document& document, const tinygltf::Value& extras, const std::string& label, Scene& scene);
+void read_environment(Document& document, const tinygltf::Value& extras, const std::string& label, Scene& scene);
 
 }  // namespace shoal::gltf

@@ -299,6 +299,7 @@ void read_nodes(Document& document, Scene& scene) {
   }
   reader.run(model.scenes[first].nodes);
   read_background(document, model.scenes[first].extras, label_of("scenes", first), scene);
+  read_environment(document, model.scenes[first].extras, label_of("scenes", first), scene);
 }
 
 }  // namespace shoal::gltf

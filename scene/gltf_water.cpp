@@ -1,4 +1,4 @@
-// Water and background from extras. The keys are DESIGN.md's, section 4.
+// Water, background and environment from extras. The keys are DESIGN.md's, section 4.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -207,6 +207,16 @@ void read_background(Document& document, const Value& extras, const std::string&
   }
   scene.has_background = true;
   scene.background = background;
+}
+
+void read_environment(Document& document, const Value& extras, const std::string& label, Scene& scene) {
+  if (!extras.IsObject() || !extras.Has("environment")) return;
+  const Value& value = extras.Get("environment");
+  const std::string what = label + ".extras.environment";
+  const std::string uri = value.IsString() ? value.Get<std::string>() : std::string();
+  if (uri.empty() || uri.rfind("data:", 0) == 0)
+    fail(document.path, what + " is wrong", "expected the URI of an equirectangular picture's file");
+  scene.environment_file = resolve_uri(document, uri, what);
 }
 
 }  // namespace shoal::gltf

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "raster/srgb.h"
 #include "scene/images_png.h"
 
 namespace shoal {
@@ -213,7 +214,7 @@ Texture decode_texture(Encoded encoded, const std::string& name, bool srgb, cons
   return make_texture_rgba8(size.width, size.height, rgba.data(), srgb);
 }
 
-Texture load_texture(const std::string& path, bool srgb, const ImageLimits& limits) {
+std::vector<std::uint8_t> read_image_file(const std::string& path) {
   std::error_code ec;
   const bool regular = std::filesystem::is_regular_file(path, ec);
   const std::uint64_t size = regular ? std::filesystem::file_size(path, ec) : 0;
@@ -224,7 +225,48 @@ Texture load_texture(const std::string& path, bool srgb, const ImageLimits& limi
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (static_cast<std::uint64_t>(in.gcount()) != size)
     fail(path, "cannot be read to its end", "expected an image file");
-  return decode_texture(bytes, path, srgb, limits);
+  return bytes;
+}
+
+Texture load_texture(const std::string& path, bool srgb, const ImageLimits& limits) {
+  return decode_texture(read_image_file(path), path, srgb, limits);
+}
+
+LinearImage decode_linear(Encoded encoded, const std::string& name, const ImageLimits& limits) {
+  Reader reader(encoded, name);
+  const ImageSize size = checked_size(reader, limits);
+  const int channels = std::min(reader.spec().nchannels, 4);
+  const ChannelMap map = channel_map(reader.spec(), channels);
+  const auto count = static_cast<std::size_t>(channels);
+  LinearImage image{size.width, size.height, {}};
+  const auto convert = [&](const auto& values, auto to_linear) {
+    const std::size_t texels = values.size() / count;
+    image.rgb.resize(texels * 3);
+    for (std::size_t i = 0; i < texels; ++i) {
+      const int channel[3] = {map.r, map.g, map.b};
+      for (std::size_t c = 0; c < 3; ++c)
+        image.rgb[3 * i + c] = to_linear(values[i * count + static_cast<std::size_t>(channel[c])]);
+    }
+  };
+  // Every code's linear light once: 8 bits repeated are 16.
+  const auto decoded_codes = [](std::size_t codes) {
+    std::vector<float> table(codes);
+    for (std::size_t i = 0; i < codes; ++i)
+      table[i] = static_cast<float>(srgb_to_linear(static_cast<double>(i) / static_cast<double>(codes - 1)));
+    return table;
+  };
+  if (size.is_float) {
+    convert(read_channels<float>(reader, channels, OIIO::TypeDesc::FLOAT), [](float v) { return v; });
+  } else if (reader.spec().format == OIIO::TypeDesc::UINT16) {
+    const std::vector<float> table = decoded_codes(65536);
+    convert(read_channels<std::uint16_t>(reader, channels, OIIO::TypeDesc::UINT16),
+            [&](std::uint16_t v) { return table[v]; });
+  } else {
+    const std::vector<float> table = decoded_codes(256);
+    convert(read_channels<std::uint8_t>(reader, channels, OIIO::TypeDesc::UINT8),
+            [&](std::uint8_t v) { return table[v]; });
+  }
+  return image;
 }
 
 std::vector<std::uint8_t> encode_texture(const Texture& texture, const std::string& name) {

@@ -37,8 +37,23 @@ ImageSize image_size(std::span<const std::uint8_t> encoded, const std::string& n
 Texture decode_texture(std::span<const std::uint8_t> encoded, const std::string& name, bool srgb,
                        const ImageLimits& limits = {});
 
-// The same from a file (at most 4 GiB).
+// The bytes of an image file, at most 4 GiB.
+std::vector<std::uint8_t> read_image_file(const std::string& path);
+
+// The same from a file.
 Texture load_texture(const std::string& path, bool srgb, const ImageLimits& limits = {});
+
+// RGB, row-major, top to bottom.
+struct LinearImage {
+  int width = 0, height = 0;
+  std::vector<float> rgb;
+};
+
+// Decodes an image as linear light, without alpha and without mips. HDR and EXR: as the file has it, numbers that are
+// none and infinite ones included. PNG (16 bits in full) and JPEG: 0 to 1, sRGB decoded. Throws Error as
+// decode_texture.
+LinearImage decode_linear(std::span<const std::uint8_t> encoded, const std::string& name,
+                          const ImageLimits& limits = {});
 
 // Level 0 of a texture as a file in memory: PNG (8-bit RGBA) for the 8-bit formats, else OpenEXR (RGBA, 32-bit float).
 // Lossless, and the same bytes for the same texture. `name` is for messages.

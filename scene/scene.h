@@ -93,6 +93,8 @@ struct Scene {
   Materials materials;
   bool has_background = false;  // else: the default (a sky where the scene is lit, black where all of it is unlit)
   Background background;
+  std::string environment_file;  // the picture that the scene names as its environment (extras.environment), not read
+                                 // yet: load_environment (scene/environment.h) makes a background of it; empty: none
   std::vector<std::string> warnings;  // what the file holds and we do not read yet, a line each
 };
 
