@@ -8,6 +8,7 @@
 #include "core/thread_pool.h"
 #include "raster/geometry_view.h"
 #include "refraction/aov.h"
+#include "refraction/blend.h"
 #include "refraction/frame.h"
 #include "refraction/sample_positions.h"
 #include "refraction/stage_digests.h"
@@ -45,7 +46,8 @@ void check_settings(const FrameSettings& s, const RenderScene& scene) {
   check(scene.waters.size() < static_cast<std::size_t>(kMaxWaterBodies), "the scene has too many bodies of water");
 }
 
-// Items of about equal work, enough of them for any number of threads; results do not depend on their size.
+}  // namespace
+
 PassBins make_bins(std::size_t chunk_count) {
   constexpr std::size_t kItems = 128, kLeastChunks = 4;
   PassBins bins;
@@ -54,8 +56,6 @@ PassBins make_bins(std::size_t chunk_count) {
   bins.items.resize((chunk_count + bins.chunks_per_item - 1) / bins.chunks_per_item);
   return bins;
 }
-
-}  // namespace
 
 struct Renderer::Impl {
   std::unique_ptr<RenderScene> moved;  // the renderer's own, where the scene is animated
@@ -84,6 +84,7 @@ struct Renderer::Impl {
     f.water_geometry = view_of(outlines, outline_materials);
     f.bins = make_bins(scene.geometry.chunks.size());
     f.water_bins.items.resize(scene.waters.size());
+    find_blended(f, pool.threads());
     if (!moved) build_shadows(f, kernels, pool);
     allocate();
   }
@@ -146,6 +147,7 @@ struct Renderer::Impl {
     p.centre_px = f.view.centre_px;
     p.grid = f.bin_grid;
     p.x_max = f.settings.width_px - 1, p.y_max = f.settings.height_px - 1;
+    p.skip_blended = f.blended.any();
   }
 
   void sample(StageDigests* digests) { render_sample(frame, kernels, method.kernels, pool, clock, digests); }
