@@ -83,6 +83,13 @@ class FragmentCollector {
     WideI id = select(wanted, every, WideI(kNoId));
     FragmentLayer* layers = lists_.of_block(block);
     const int count = lists_.count[block];
+    if (count == kFragmentLayers) {
+      const FragmentLayer& last = layers[kFragmentLayers - 1];
+      if (none(in_front(depth, id, WideF::load(last.depth), WideI::load(last.id)))) {
+        lists_.dropped[block] = 1;
+        return;
+      }
+    }
     for (int n = 0; n < count; ++n) {
       const WideF there = WideF::load(layers[n].depth);
       const WideI there_id = WideI::load(layers[n].id);
