@@ -55,7 +55,18 @@ class FrontEnd {
     for (std::uint32_t c = first; c < last; ++c) {
       const Chunk& chunk = geometry_.chunks[c];
       if (program_.chunk_outside(chunk)) continue;
+      if (sink_.pass().skip_blended && geometry_.materials[chunk.material].alpha_mode == AlphaMode::kBlend) continue;
       draw_chunk(chunk, id_override);
+    }
+    sink_.finish();
+  }
+
+  // Chunks of a list, in its order.
+  void run(const std::uint32_t* chunks, std::size_t count) {
+    sink_.item().clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Chunk& chunk = geometry_.chunks[chunks[i]];
+      if (!program_.chunk_outside(chunk)) draw_chunk(chunk, kNoId);
     }
     sink_.finish();
   }

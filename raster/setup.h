@@ -23,6 +23,7 @@ struct PassSettings {
   int x_min = 0, y_min = 0, x_max = -1, y_max = -1;
   const std::uint8_t* tile_active = nullptr;  // [tiles] 0: nothing is binned there; null: all are active
   bool flip_facing = false;                   // a mirrored pass sees every triangle from behind
+  bool skip_blended = false;                  // chunks of blended materials are left to a pass of their own
 };
 
 }  // namespace shoal

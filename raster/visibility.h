@@ -55,6 +55,12 @@ struct KeepAll {
   SHOAL_INLINE WideM operator()(std::int32_t, int, int, WideM cover) const { return cover; }
 };
 
+// An "alpha test" that takes the covered blocks itself: nothing is tested or written here (raster/fragments.h).
+template <class T>
+concept TakesFragments = requires(const T& t, std::int32_t id, int block, WideM cover, WideF depth) {
+  t.fragment(id, block, block, cover, depth);
+};
+
 // Draws the binned triangles of one tile.
 //   AlphaTest  WideM operator()(id, block_x_px, block_y_px, cover): the covered pixels that the material keeps
 template <class AlphaTest>
@@ -184,9 +190,6 @@ class TileRaster {
 
   template <bool kMasked>
   SHOAL_INLINE void write_block(int block_col, int block_row, WideM cover, const DepthPlane& plane, std::int32_t id) {
-    const std::size_t at = out_.grid.block_offset(block_col, block_row);
-    float* depth_at = out_.depth.data() + at;
-    std::int32_t* id_at = out_.id.data() + at;
     // Offsets from the first corner are exact in float: they are below 2^24.
     const WideF fx =
         to_float((WideI(block_col * 4 * kSubpixel + kSubpixel / 2 - plane.x0)) + (block_x() << kSubpixelBits));
@@ -194,6 +197,18 @@ class TileRaster {
         to_float((WideI(block_row * 4 * kSubpixel + kSubpixel / 2 - plane.y0)) + (block_y() << kSubpixelBits));
     const WideF depth =
         clamp((fx * WideF(plane.dx) + fy * WideF(plane.dy)) + WideF(plane.d0), WideF(plane.lo), WideF(plane.hi));
+    if constexpr (TakesFragments<AlphaTest>) {
+      alpha_.fragment(id, block_col, block_row, cover, depth);
+    } else {
+      keep_nearest<kMasked>(block_col, block_row, cover, depth, id);
+    }
+  }
+
+  template <bool kMasked>
+  SHOAL_INLINE void keep_nearest(int block_col, int block_row, WideM cover, WideF depth, std::int32_t id) {
+    const std::size_t at = out_.grid.block_offset(block_col, block_row);
+    float* depth_at = out_.depth.data() + at;
+    std::int32_t* id_at = out_.id.data() + at;
     const WideF old_depth = WideF::load(depth_at);
     const WideI old_id = WideI::load(id_at);
     WideM pass = cover & ((depth > old_depth) | ((depth == old_depth) & (WideI(id) < old_id)));
@@ -308,6 +323,10 @@ class TileRaster {
   template <bool kMasked>
   SHOAL_INLINE void write_block_large(int block_col, int block_row, WideM cover, const DepthPlane& plane,
                                       std::int32_t id, float& farthest) {
+    if constexpr (TakesFragments<AlphaTest>) {
+      write_block<kMasked>(block_col, block_row, cover, plane, id);
+      return;
+    }
     if (plane.hi < farthest) return;
     write_block<kMasked>(block_col, block_row, cover, plane, id);
     if (all(cover))

@@ -5,6 +5,7 @@
 // refraction/ (broad and narrow phase).
 #include "refraction/frame.h"
 
+#include "refraction/blend.h"
 #include "refraction/stage_digests.h"
 #include "refraction/water_region.h"
 
@@ -30,6 +31,7 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
 
   // 1 Water: where the planes are, seen from this eye. (Flat surfaces have no heights to compute.)
   place_water(f, method);
+  clear_blended(f);
   clock.lap("water");
   if (method.trace != nullptr) return trace_sample(f, method, pool, clock, digests);
 
@@ -73,7 +75,12 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
       if (f.region_of_body[region] != 0) method.narrow(f, water, region);
     });
     clock.lap("narrow");
+    blend_water(f, kernels, method, water, pool, clock);
   }
+
+  // 5 Blended, worked out before 4 lays it over what is behind it: glass and the like, by (depth, id) at each sample.
+  blend_direct(f, kernels, pool, clock);
+  if (digests != nullptr) digests->blended(f), clock.skip();
 
   // 4 Resolve, light, post: visible ids to 8-bit pixels, region by region while it is in cache.
   pool.for_each(regions, [&](std::size_t region, int) { method.shade(f, region); });

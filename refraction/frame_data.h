@@ -10,6 +10,7 @@
 #include "raster/bin.h"
 #include "raster/camera.h"
 #include "raster/cull.h"
+#include "raster/fragments.h"
 #include "raster/front_end.h"
 #include "raster/setup.h"
 #include "raster/visibility.h"
@@ -68,6 +69,31 @@ struct PassBins {
   std::uint32_t chunks_per_item = 1;
   std::uint32_t chunk_count = 0;
 };
+// Items of about equal work, enough of them for any number of threads; results do not depend on their size.
+PassBins make_bins(std::size_t chunk_count);  // refraction/renderer.cpp
+
+// What is seen through, laid over what is behind it: colour = light + keep * behind, at each sample of a block that has
+// any; the other blocks' planes hold nothing.
+struct BlendLayer {
+  AlignedArray<float> red, green, blue;  // linear light that the fragments send to the eye, the nearer ones' share off
+  AlignedArray<float> keep;              // what they let through, 1 to 0
+  AlignedArray<std::uint8_t> filled;     // [blocks] 1: the block's planes are set
+  void resize(const FrameGrid& g) {
+    for (auto* plane : {&red, &green, &blue, &keep}) plane->resize(g.pixel_slots());
+    filled.resize(g.block_count());
+  }
+};
+
+// Blended materials (refraction/blend.h).
+struct Blended {
+  std::vector<std::uint32_t> chunks;  // of the scene, in submission order
+  PassBins bins;                      // of one pass at a time, over `chunks`
+  BinGrid grid;                       // tiles are the 64-pixel regions, whatever the frame's own tiles are
+  std::vector<FragmentLists> lists;   // [threads]
+  BlendLayer direct;                  // in front of what the direct pass shows
+  BlendLayer refracted, mirrored;     // on water pixels' rays beyond the surface, and back from it
+  bool any() const { return !chunks.empty(); }
+};
 
 // One warped pass over the scene for a body of water: refracted, or mirrored.
 struct WaterPass {
@@ -123,6 +149,7 @@ struct FrameData {
 
   PassBins bins;
   PassBins water_bins;
+  Blended blended;
   VisibilityBuffer direct, refracted, mirrored;
   std::vector<std::uint8_t> region_of_body;  // [regions] this pass's region, 64-pixel cells
   std::vector<std::uint8_t> tile_active;     // [tiles] tiles that the region touches

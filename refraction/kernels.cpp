@@ -2,6 +2,7 @@
 #include "refraction/kernels.h"
 
 #include "raster/visibility.h"
+#include "refraction/kernels_blend.h"
 #include "refraction/kernels_shadow.h"
 #include "refraction/pixel_stage.h"
 #include "refraction/water_programs.h"
@@ -42,6 +43,29 @@ void mirrored_front_end(FrameData& f, const WaterPass& water, std::size_t item) 
   const MirroredProgram program{{water, f.view}};
   FrontEnd<MirroredProgram>(f.geometry, program, water.pass, f.bins.items[item])
       .run(first, end_of_item(f, first), kNoId);
+}
+
+template <class Program>
+void blended_item(FrameData& f, const Program& program, const PassSettings& like, bool in_region, std::size_t item) {
+  PassSettings pass = like;
+  pass.skip_blended = false;
+  pass.grid = f.blended.grid;
+  pass.tile_active = in_region ? f.region_of_body.data() : nullptr;
+  PassBins& bins = f.blended.bins;
+  const std::uint32_t first = static_cast<std::uint32_t>(item) * bins.chunks_per_item;
+  const std::uint32_t left = bins.chunk_count - first;
+  const std::uint32_t count = left < bins.chunks_per_item ? left : bins.chunks_per_item;
+  FrontEnd<Program>(f.geometry, program, pass, bins.items[item]).run(f.blended.chunks.data() + first, count);
+}
+
+void blended_front_end(FrameData& f, const WaterPass* water, std::size_t item) {
+  if (water == nullptr) {
+    blended_item(f, DirectProgram{f.view, f.frustum}, f.direct_pass, false, item);
+  } else if (water->mirrored) {
+    blended_item(f, MirroredProgram{{*water, f.view}}, water->pass, true, item);
+  } else {
+    blended_item(f, RefractedProgram{{*water, f.view}}, water->pass, true, item);
+  }
 }
 
 // Where straight view rays meet the triangle.
@@ -104,8 +128,9 @@ std::uint8_t water_in_region(const FrameData& f, std::int32_t body, std::size_t 
 }  // namespace
 
 FrameKernels make_frame_kernels() {
-  return {&direct_front_end, &water_front_end, &refracted_front_end, &mirrored_front_end, &draw_tile,
-          &direct_alpha,     &mirrored_alpha,  &water_in_region,     &shadow_front_end,   &draw_shadow_tile};
+  return {&direct_front_end, &water_front_end,  &refracted_front_end, &mirrored_front_end,
+          &draw_tile,        &direct_alpha,     &mirrored_alpha,      &water_in_region,
+          &shadow_front_end, &draw_shadow_tile, &blended_front_end,   &blend_direct_region};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -34,6 +34,10 @@ struct FrameKernels {
   void (*shadow_front_end)(const ShadowPass&, PassBins&, std::size_t item);
   void (*draw_shadow_tile)(const FrameData&, const std::vector<ShadowPass>&, const std::vector<PassBins>&,
                            VisibilityBuffer& out, std::size_t tile);
+  // Item `item` of the blended chunks into their bins: direct where `water` is null, else as that pass draws.
+  void (*blended_front_end)(FrameData&, const WaterPass* water, std::size_t item);
+  // Those bins over one region of the direct pass, into Blended::direct.
+  void (*blend_direct)(FrameData&, std::size_t region, int thread);
 };
 
 // What a method brings: its broad phase and its narrow phase (refraction/methods/method.h).
@@ -41,6 +45,8 @@ struct MethodKernels {
   BroadPhase (*map)(const WaterBody&, const View&);
   AlphaTest refracted_alpha;
   void (*narrow)(FrameData&, const WaterPass&, std::size_t region);
+  // The blended bins over one region of a water pass, into Blended::refracted or, for a mirrored pass, mirrored.
+  void (*blend_water)(FrameData&, const WaterPass&, std::size_t region, int thread);
   // Resolve, light, post: one region of the frame.
   void (*shade)(FrameData&, std::size_t region);
   // Of a method that traces rays instead: one region of the frame, all of it. The stages above are then not used.

@@ -8,6 +8,7 @@
 #include "core/thread_pool.h"
 #include "raster/geometry_view.h"
 #include "refraction/aov.h"
+#include "refraction/blend.h"
 #include "refraction/frame.h"
 #include "refraction/method_options.h"
 #include "refraction/sample_positions.h"
@@ -46,7 +47,8 @@ void check_settings(const FrameSettings& s, const RenderScene& scene) {
 
 constexpr const char* kRayNames[RayCounts::kKinds] = {"primary", "reflected", "refracted", "shadow"};
 
-// Items of about equal work, enough of them for any number of threads; results do not depend on their size.
+}  // namespace
+
 PassBins make_bins(std::size_t chunk_count) {
   constexpr std::size_t kItems = 128, kLeastChunks = 4;
   PassBins bins;
@@ -55,8 +57,6 @@ PassBins make_bins(std::size_t chunk_count) {
   bins.items.resize((chunk_count + bins.chunks_per_item - 1) / bins.chunks_per_item);
   return bins;
 }
-
-}  // namespace
 
 struct Renderer::Impl {
   std::unique_ptr<RenderScene> moved;  // the renderer's own, where the scene is animated
@@ -90,6 +90,7 @@ struct Renderer::Impl {
       f.rays = make_ray_queries(scene, pool.threads());
       if (f.rays == nullptr) throw UsageError("this build has no ray tracer; expected a method that is not ray-traced");
     }
+    find_blended(f, pool.threads());
     if (!moved) build_shadows(f, kernels, pool);
     for (const WaterBody& body : scene.waters)
       f.surface_models.push_back(make_surface_model(body.surface, plane_extent(body)));
@@ -154,6 +155,7 @@ struct Renderer::Impl {
     p.centre_px = f.view.centre_px;
     p.grid = f.bin_grid;
     p.x_max = f.settings.width_px - 1, p.y_max = f.settings.height_px - 1;
+    p.skip_blended = f.blended.any();
   }
 
   void sample(StageDigests* digests) { render_sample(frame, kernels, method.kernels, pool, clock, digests); }

@@ -77,7 +77,7 @@ struct AovImage {
 struct Frame {
   int width_px = 0, height_px = 0;
   std::vector<std::uint8_t> srgb8;  // RGB, the final 8-bit picture
-  std::vector<float> linear;        // RGBA, exposure not applied; A is the share of samples that hit something
+  std::vector<float> linear;        // RGBA, exposure not applied; A: what the scene covers of the background
   std::vector<AovImage> aovs;       // of the pixels' centres
   std::vector<std::pair<std::string, std::string>> digests;  // stage, hex; in pipeline order
   std::vector<std::pair<std::string, double>> stages_ms;     // in pipeline order

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "raster/post.h"
+#include "refraction/blend_region.h"
 #include "refraction/pixel_stage.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
@@ -116,6 +117,10 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
   } else {
     reflected = background_radiance<WideF>(f.scene->lighting.background, r.reflected.direction_world);
   }
+  if (f.blended.any()) {
+    lay_over(f.blended.refracted, block, through, refracted, nullptr);
+    if (mirrors_scene(water.optics)) lay_over(f.blended.mirrored, block, lanes, reflected, nullptr);
+  }
   const Vec3<WideF> mixed = refracted * (WideF(1.0f) - at.reflectance) + reflected * at.reflectance;
   out.radiance = select<WideF>(lanes, mixed, out.radiance);
   out.covered = select(lanes, WideF(1.0f), out.covered);
@@ -153,6 +158,7 @@ SHOAL_INLINE void shade_block(FrameData& f, const Block& block, BlockColor& out)
     });
   }
   if (around_eye != nullptr) out.radiance = out.radiance * absorbed(*around_eye->body, max(eye_path_m, WideF(0.0f)));
+  if (f.blended.any()) lay_over(f.blended.direct, block, block.in_frame, out.radiance, &out.covered);
 }
 
 // Adds the sample to the picture; the last one encodes it.

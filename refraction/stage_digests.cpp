@@ -64,6 +64,20 @@ void StageDigests::reflected(const FrameData& f) {
   add_rows(stage("depth.reflected"), f.grid, f.mirrored.depth, &f.region_of_body);
 }
 
+void StageDigests::blended(const FrameData& f) {
+  if (!f.blended.any()) return;
+  // Empty blocks are those that let everything through.
+  for (const BlendLayer* layer : {&f.blended.direct, &f.blended.refracted, &f.blended.mirrored}) {
+    if (layer->filled.size() == 0) continue;
+    for (const auto* plane : {&layer->red, &layer->green, &layer->blue, &layer->keep}) {
+      AlignedArray<float> whole(plane->size());
+      for (std::size_t i = 0; i < whole.size(); ++i)
+        whole[i] = layer->filled[i / kBlockPixels] != 0 ? (*plane)[i] : (plane == &layer->keep ? 1.0f : 0.0f);
+      add_rows(stage("blended"), f.grid, whole, nullptr);
+    }
+  }
+}
+
 void StageDigests::shaded(const FrameData& f) {
   for (const AlignedArray<float>& plane : f.gbuffer.plane) add_rows(stage("gbuffer"), f.grid, plane, nullptr);
   const HitPoints& h = f.hit_points;

@@ -267,7 +267,6 @@ void read_alpha(Document& document, const tinygltf::Material& from, const std::s
     material.alpha_mode = AlphaMode::kMask;
   } else if (from.alphaMode == "BLEND") {
     material.alpha_mode = AlphaMode::kBlend;
-    warn(document, "blended materials are not read yet: drawn opaque");
   } else if (from.alphaMode != "OPAQUE") {
     fail(document.path, label + " has alphaMode '" + one_line(from.alphaMode, 40) + "'",
          "expected OPAQUE, MASK or BLEND");

@@ -56,9 +56,37 @@ struct MethodStages {
     });
   }
 
+  // The method's refracted ray, or, for a mirrored pass, the reflected one.
+  struct WaterBlend {
+    const FrameData& f;
+    const WaterPass& water;
+
+    WideM lanes(const Block& block) const {
+      return (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
+    }
+    BlendRays rays(const Block& block, WideM& here) const {
+      const WaterRays<WideF> r =
+          M::template rays<WideF>(water, block_rays(f.view, block), pixel_ray_differential<WideF>(f.view));
+      if (water.mirrored) return {r.reflected, r.reflected_differential};
+      here = here & r.at_surface.transmitted;
+      return {r.refracted, r.refracted_differential};
+    }
+    // The far side's pass is in the water where the eye is not, the mirrored one where it is.
+    bool in_water() const { return water.mirrored == water.optics.eye_below; }
+    const WaterPass* lit_in() const { return in_water() ? &water : nullptr; }
+    const WaterBody* absorbs() const { return in_water() ? water.body : nullptr; }
+    static constexpr bool kFromSurface = true;
+  };
+
+  static void blend_water(FrameData& f, const WaterPass& water, std::size_t region, int thread) {
+    VisibilityBuffer& opaque = water.mirrored ? f.mirrored : f.refracted;
+    BlendLayer& layer = water.mirrored ? f.blended.mirrored : f.blended.refracted;
+    blend_region(f, opaque, layer, WaterBlend{f, water}, region, thread);
+  }
+
   static void shade(FrameData& f, std::size_t region) { shade_region<M>(f, region); }
 
-  static constexpr MethodKernels kernels() { return {&M::map, &refracted_alpha, &narrow, &shade}; }
+  static constexpr MethodKernels kernels() { return {&M::map, &refracted_alpha, &narrow, &blend_water, &shade}; }
 };
 
 }  // namespace shoal::inline SHOAL_ISA_NS
