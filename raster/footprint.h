@@ -60,8 +60,8 @@ SHOAL_INLINE Probes<F> footprint_probes(const Texture& texture, Vec2<F> duv_dx, 
   const F ax = (ux * sx + uy * sy) * scale, ay = (vx * sx + vy * sy) * scale;
 
   const F count = max(-floor(F(0.125f) - eta), one);
-  return {to_int_trunc(count), clamp(long2 / (eta * eta), one, F(0x1p28f)),
-          {ax * F(1.0f / width), ay * F(1.0f / height)}};
+  return {
+      to_int_trunc(count), clamp(long2 / (eta * eta), one, F(0x1p28f)), {ax * F(1.0f / width), ay * F(1.0f / height)}};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -47,8 +47,8 @@ struct Material {
   }
   // Of every texture: 1 to 16.
   void set_anisotropy(int limit) {
-    for (Sampler* s : {&base_color_sampler, &metallic_roughness.sampler, &normal.sampler, &occlusion.sampler,
-                       &emission.sampler})
+    for (Sampler* s :
+         {&base_color_sampler, &metallic_roughness.sampler, &normal.sampler, &occlusion.sampler, &emission.sampler})
       s->anisotropy = limit;
   }
 };

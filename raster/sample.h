@@ -224,11 +224,10 @@ SHOAL_INLINE Vec4<F> sample_levels(const Texture& texture, const Sampler& sample
 // leaves their range.
 template <class F>
 __attribute__((noinline)) void sample_anisotropic(const Texture& texture, const Sampler& sampler, const Vec2<F>& uv,
-                                                  const Vec2<F>& duv_dx, const Vec2<F>& duv_dy,
-                                                  const MaskOf<F>& active, Vec4<F>& mean) {
+                                                  const Vec2<F>& duv_dx, const Vec2<F>& duv_dy, const MaskOf<F>& active,
+                                                  Vec4<F>& mean) {
   const Probes<F> probes = footprint_probes<F>(texture, duv_dx, duv_dy, sampler.anisotropy);
-  const Levels<F> levels =
-      choose_levels<F>(texture, sampler, [&]() SHOAL_LAMBDA { return half_log2<F>(probes.rho2); });
+  const Levels<F> levels = choose_levels<F>(texture, sampler, [&]() SHOAL_LAMBDA { return half_log2<F>(probes.rho2); });
   const F half(0.5f), part = F(1.0f) / to_float(probes.count), last = to_float(probes.count) - F(1.0f);
   // Lanes that have had their last probe read it again, from cache, and keep their mean.
   const auto probe = [&](F i) SHOAL_LAMBDA {
@@ -265,8 +264,8 @@ SHOAL_INLINE Vec4<F> sample(const Texture& texture, const Sampler& sampler, Vec2
     sample_anisotropic<F>(texture, sampler, uv, duv_dx, duv_dy, active, mean);
     return mean;
   }
-  const Levels<F> levels = choose_levels<F>(
-      texture, sampler, [&]() SHOAL_LAMBDA { return level_of_detail<F>(texture, duv_dx, duv_dy); });
+  const Levels<F> levels =
+      choose_levels<F>(texture, sampler, [&]() SHOAL_LAMBDA { return level_of_detail<F>(texture, duv_dx, duv_dy); });
   return sample_levels<F>(texture, sampler, uv, levels, active);
 }
 
