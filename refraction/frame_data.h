@@ -75,7 +75,6 @@ struct WaterPass {
   Plane keep;              // world clip plane: what the pass draws
   Frustum frustum;         // of the region's bounds
   PassSettings pass;
-  bool mirrored = false;
 };
 
 // Does the surface mirror the scene on the eye's own side? It does to an eye in the water, and to one on the denser
