@@ -68,7 +68,7 @@ void add_frame_options(CLI::App& command, RawOptions& raw) {
   add("--threads", raw.threads, "N", "all that the process may use");
   add("--tile", raw.tile, "N", "pixels, a power of two, 16 to 256; 64");
   add("--isa", raw.isa, "NAME", "instruction set (shoal list isas); the best");
-  add("--anisotropy", raw.anisotropy, "N", "of texture filtering; 1");
+  add("--anisotropy", raw.anisotropy, "N", "probes along the longer side of a pixel in a texture, 1 to 16; 1");
   add("--shadows", raw.shadows, "off|map|rays", "of the sun; map");
   add("--shadow-map", raw.shadow_map, "N", "texels a side of the sun's shadow map, a power of two, 256 to 8192; 4096");
   add("--reflections", raw.reflections, "environment|scene", "environment");

@@ -220,9 +220,7 @@ void read_frame_settings(const RawOptions& raw, FrameSettings& frame) {
   if (raw.threads) frame.threads = read_count("--threads", *raw.threads, 1, kMaxThreads);
   if (raw.tile) frame.tile_px = read_tile(*raw.tile);
   frame.isa = raw.isa ? read_isa(*raw.isa) : supported_isas().front();
-  if (raw.anisotropy && read_count("--anisotropy", *raw.anisotropy, 1, 16) > 1) {
-    not_yet("--anisotropy", *raw.anisotropy, {"1"});
-  }
+  if (raw.anisotropy) frame.anisotropy = read_count("--anisotropy", *raw.anisotropy, 1, 16);
   if (raw.shadows) {
     frame.shadows = static_cast<Shadows>(read_choice("--shadows", *raw.shadows, {"off", "map", "rays"}, {}));
   }

@@ -11,10 +11,19 @@ namespace shoal::bench::inline SHOAL_ISA_NS {
 namespace {
 
 // Calls store(block, surface, lanes) with the surface points of each block of a region, as shade_hits finds them.
-template <class Store>
-SHOAL_INLINE void surfaces_of_region(const FrameData& f, std::size_t region, Store store) {
+// A block's lines of the ids and of the targets are asked for one row of blocks before they are needed: rows lie pages
+// apart, where the processor does not look ahead by itself, and stores that wait for their lines hold up all that
+// follows.
+//   ahead  told the first slot of the block below each one
+template <class Store, class Ahead>
+SHOAL_INLINE void surfaces_of_region(const FrameData& f, std::size_t region, Store store, Ahead ahead) {
   const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
+  const std::size_t row = static_cast<std::size_t>(f.grid.blocks_x) * kBlockPixels;
   for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
+    if (const std::size_t below = block.offset + row; below < f.direct.id.size()) {
+      __builtin_prefetch(f.direct.id.data() + below);
+      ahead(below);
+    }
     const WideI id = WideI::load(f.direct.id.data() + block.offset);
     const WideM shown = is_triangle(id) & block.in_frame;
     if (none(shown)) return;
@@ -38,27 +47,42 @@ SHOAL_INLINE void put(AlignedArray<float>* planes, std::size_t at, const Vec3<Wi
 }
 
 void fill_float(const FrameData& f, FloatTargets& to, std::size_t region) {
-  surfaces_of_region(f, region, [&](const Block& block, const SurfaceSample<WideF>& s, WideM lanes) SHOAL_LAMBDA {
-    put(to.position, block.offset, s.position_world, lanes);
-    put(to.normal, block.offset, s.normal_world, lanes);
-    put(to.color, block.offset, s.base_color, lanes);
-  });
+  surfaces_of_region(
+      f, region,
+      [&](const Block& block, const SurfaceSample<WideF>& s, WideM lanes) SHOAL_LAMBDA {
+        put(to.position, block.offset, s.position_world, lanes);
+        put(to.normal, block.offset, s.normal_world, lanes);
+        put(to.color, block.offset, s.base_color, lanes);
+      },
+      [&](std::size_t below) SHOAL_LAMBDA {
+        const AlignedArray<float>* targets[] = {to.position, to.normal, to.color};
+        for (const AlignedArray<float>* planes : targets)
+          for (int c = 0; c < 3; ++c) __builtin_prefetch(planes[c].data() + below, 1);
+      });
 }
 
 SHOAL_INLINE WideI unorm8(WideF v) { return to_int_nearest(clamp(v, WideF(0.0f), WideF(1.0f)) * WideF(255.0f)); }
 SHOAL_INLINE WideI pack(WideI x, WideI y, WideI z) { return x | (y << 8) | (z << 16); }
 
 void fill_rgba8(const FrameData& f, Rgba8Targets& to, std::size_t region) {
-  surfaces_of_region(f, region, [&](const Block& block, const SurfaceSample<WideF>& s, WideM lanes) SHOAL_LAMBDA {
-    const WideF half(0.5f);
-    const Vec3<WideF>& n = s.normal_world;
-    const WideI normal = pack(unorm8(n.x * half + half), unorm8(n.y * half + half), unorm8(n.z * half + half));
-    const WideI color = pack(encode_srgb8(s.base_color.x), encode_srgb8(s.base_color.y), encode_srgb8(s.base_color.z));
-    const WideI material = pack(unorm8(s.metallic), unorm8(s.roughness), unorm8(s.alpha));
-    store_masked(to.normal.data() + block.offset, normal, lanes);
-    store_masked(to.color.data() + block.offset, color, lanes);
-    store_masked(to.material.data() + block.offset, material, lanes);
-  });
+  surfaces_of_region(
+      f, region,
+      [&](const Block& block, const SurfaceSample<WideF>& s, WideM lanes) SHOAL_LAMBDA {
+        const WideF half(0.5f);
+        const Vec3<WideF>& n = s.normal_world;
+        const WideI normal = pack(unorm8(n.x * half + half), unorm8(n.y * half + half), unorm8(n.z * half + half));
+        const WideI color =
+            pack(encode_srgb8(s.base_color.x), encode_srgb8(s.base_color.y), encode_srgb8(s.base_color.z));
+        const WideI material = pack(unorm8(s.metallic), unorm8(s.roughness), unorm8(s.alpha));
+        store_masked(to.normal.data() + block.offset, normal, lanes);
+        store_masked(to.color.data() + block.offset, color, lanes);
+        store_masked(to.material.data() + block.offset, material, lanes);
+      },
+      [&](std::size_t below) SHOAL_LAMBDA {
+        __builtin_prefetch(to.normal.data() + below, 1);
+        __builtin_prefetch(to.color.data() + below, 1);
+        __builtin_prefetch(to.material.data() + below, 1);
+      });
 }
 
 void resolve(const GeometryView& g, const View& view, const std::int32_t* ids, std::size_t blocks, float* out) {

@@ -11,15 +11,16 @@
 
 namespace shoal::bench {
 
-const RenderScene& pool_scene(std::uint64_t triangles) {
-  static std::map<std::uint64_t, std::unique_ptr<RenderScene>> made;
-  std::unique_ptr<RenderScene>& scene = made[triangles];
+const RenderScene& built_in_scene(const std::string& name, std::uint64_t triangles) {
+  static std::map<std::pair<std::string, std::uint64_t>, std::unique_ptr<RenderScene>> made;
+  std::unique_ptr<RenderScene>& scene = made[{name, triangles}];
   if (!scene)
     for (const ProceduralScene& p : procedural_scenes())
-      if (std::string("pool") == p.name) scene = std::make_unique<RenderScene>(build_render_scene(p.make(triangles)));
-  if (!scene) throw std::runtime_error("there is no scene pool");
+      if (name == p.name) scene = std::make_unique<RenderScene>(build_render_scene(p.make(triangles)));
+  if (!scene) throw std::runtime_error("there is no scene " + name);
   return *scene;
 }
+const RenderScene& pool_scene(std::uint64_t triangles) { return built_in_scene("pool", triangles); }
 
 const Camera& first_camera(const RenderScene& scene) { return scene.cameras.front().camera; }
 
@@ -81,6 +82,40 @@ RenderScene make_quad(int texture_size) {
   RenderScene scene = finish(std::move(geometry), material);
   scene.materials.textures.push_back(make_noise(texture_size));
   return scene;
+}
+
+void add_maps(RenderScene& scene) {
+  constexpr int kSize = 512;
+  Materials& m = scene.materials;
+  const auto first = static_cast<std::int32_t>(m.textures.size());
+  std::vector<std::uint8_t> bumps(std::size_t{kSize} * kSize * 4), shares(bumps.size());
+  Random random;
+  for (std::size_t i = 0; i < bumps.size(); i += 4) {
+    const auto tilt = [&] { return static_cast<std::uint8_t>(random.between(112, 144)); };
+    bumps[i] = tilt(), bumps[i + 1] = tilt(), bumps[i + 2] = 250, bumps[i + 3] = 255;
+    for (std::size_t c = 0; c < 4; ++c) shares[i + c] = static_cast<std::uint8_t>(random.between(128, 256));
+  }
+  m.textures.push_back(make_texture_rgba8(kSize, kSize, bumps.data(), false));
+  m.textures.push_back(make_texture_rgba8(kSize, kSize, shares.data(), false));
+  m.textures.push_back(make_texture_rgba8(kSize, kSize, shares.data(), true));
+  for (Material& material : m.materials) {
+    if (material.base_color_texture == kNoTexture) continue;
+    material.normal.texture = first;
+    material.metallic_roughness.texture = material.occlusion.texture = first + 1;
+    material.emission.texture = first + 2;
+    material.emissive = {0.02f, 0.02f, 0.02f};
+  }
+  // Any vector will do for a cost: it is made unit in the pixel, and is not made orthogonal there.
+  scene.geometry.tangents.assign(scene.geometry.vertices.size(), Vec4f{0.6f, 0.0f, 0.8f, 1.0f});
+}
+
+void add_point_lights(RenderScene& scene, int count) {
+  for (int i = 0; i < count; ++i) {
+    PunctualLight lamp;
+    lamp.position_world = {static_cast<float>(i % 4) * 2.0f - 3.0f, 2.5f, static_cast<float>(i / 4) * 3.0f - 4.5f};
+    lamp.intensity = {1.0f, 0.9f, 0.7f};
+    scene.lighting.punctual.push_back(lamp);
+  }
 }
 
 RenderScene make_grid(int cells, float cell_px, bool front) {

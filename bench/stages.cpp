@@ -4,6 +4,7 @@
 
 #include "bench/harness.h"
 #include "bench/scenes.h"
+#include "raster/geometry_view.h"
 
 namespace shoal::bench {
 
@@ -14,19 +15,9 @@ Stages::Stages(const RenderScene& scene, int width_px, int height_px, int thread
   f.settings.width_px = width_px, f.settings.height_px = height_px;
   f.grid = make_frame_grid(width_px, height_px);
   f.bin_grid = make_bin_grid(width_px, height_px, f.settings.tile_px);
-  const Geometry& g = scene.geometry;
-  f.geometry = {g.x_world.data(),
-                g.y_world.data(),
-                g.z_world.data(),
-                {g.corner0.data(), g.corner1.data(), g.corner2.data()},
-                g.chunks.data(),
-                g.vertices.data(),
-                g.colors.empty() ? nullptr : g.colors.data(),
-                g.triangles.data(),
-                scene.materials.materials.data(),
-                scene.materials.textures.data()};
+  f.geometry = view_of(scene.geometry, scene.materials);
   // As the renderer does: about 128 items, of at least four chunks.
-  const std::size_t chunks = g.chunks.size();
+  const std::size_t chunks = scene.geometry.chunks.size();
   f.bins.chunk_count = static_cast<std::uint32_t>(chunks);
   f.bins.chunks_per_item = static_cast<std::uint32_t>(std::max<std::size_t>(4, (chunks + 127) / 128));
   f.bins.items.resize((chunks + f.bins.chunks_per_item - 1) / f.bins.chunks_per_item);

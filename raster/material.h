@@ -47,6 +47,12 @@ struct Material {
     return metallic_roughness.texture != kNoTexture || normal.texture != kNoTexture ||
            occlusion.texture != kNoTexture || emission.texture != kNoTexture || ior != 1.5f;
   }
+  // Of every texture: 1 to 16.
+  void set_anisotropy(int limit) {
+    for (Sampler* s :
+         {&base_color_sampler, &metallic_roughness.sampler, &normal.sampler, &occlusion.sampler, &emission.sampler})
+      s->anisotropy = limit;
+  }
 };
 
 struct Materials {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/vec_lanes.h"
+#include "raster/footprint.h"
 #include "raster/texel_filter.h"
 #include "raster/texture.h"
 
@@ -161,40 +162,44 @@ SHOAL_INLINE sample_detail::Lod<F> level_of_detail(const Texture& texture, Vec2<
   return sample_detail::half_log2<F>(rho2);
 }
 
-// Samples `texture` at `uv`: linear light, alpha as stored.
-//   uv              any value; (0, 0) is the corner of the first texel, v goes down the rows
-//   duv_dx, duv_dy  derivatives of uv over one pixel
-//   active          lanes that are wanted; the others read only valid texels too and return anything finite
-// Returns R, G, B, A, in [0, 1] for the 8-bit formats. uv that is NaN or infinite is taken as some valid texel.
-// Source: Vulkan 1.3, 16.5 to 16.9 (image operations). Differs: nearest mip is floor(lod + 1/2); weights have 15 bits.
-// Error: against double precision on the stored texels 4 / 32767, plus the rounding of uv: 2^-24 of the texture's size
-// in texels, times the difference of neighbours (test_texture.cpp, "filtering").
+namespace sample_detail {
+
+// Which levels a pixel is read from, and how they are filtered: see Lod and axis_tap.
 template <class F>
-SHOAL_INLINE Vec4<F> sample(const Texture& texture, const Sampler& sampler, Vec2<F> uv, Vec2<F> duv_dx, Vec2<F> duv_dy,
-                            MaskOf<F> active) {
-  using namespace sample_detail;
+struct Levels {
+  IntOf<F> level, fraction;  // of magnified lanes 0
+  IntOf<F> half, weight_mask;
+};
+
+//   lod_of  gives the Lod; not asked where it makes no difference
+template <class F, class LodOf>
+SHOAL_INLINE Levels<F> choose_levels(const Texture& texture, const Sampler& sampler, LodOf lod_of) {
   using I = IntOf<F>;
   const auto filter_half = [](Filter f) { return f == Filter::kLinear ? kHalf : 0; };
-  Footprint<F> at;
-  at.folded = {fold(uv.x, sampler.wrap_u), fold(uv.y, sampler.wrap_v)};
-  at.half = I(filter_half(sampler.magnify));
-
-  // Level and its fraction; magnified lanes have level 0 and fraction 0.
-  I level(0), fraction(0);
+  Levels<F> r{I(0), I(0), I(filter_half(sampler.magnify)), I(0)};
   if (texture.level_count > 1 || sampler.magnify != sampler.minify) {
-    const Lod<F> lod = level_of_detail<F>(texture, duv_dx, duv_dy);
+    const Lod<F> lod = lod_of();
     const MaskOf<F> minified = (lod.level | lod.fraction) > I(0);
-    if (sampler.magnify != sampler.minify) at.half = select(minified, I(filter_half(sampler.minify)), at.half);
+    if (sampler.magnify != sampler.minify) r.half = select(minified, I(filter_half(sampler.minify)), r.half);
     const I last(texture.level_count - 1);
     if (sampler.mip == MipFilter::kLinear) {
-      level = min(lod.level, last);
-      fraction = select(lod.level < last, lod.fraction, I(0));
+      r.level = min(lod.level, last);
+      r.fraction = select(lod.level < last, lod.fraction, I(0));
     } else if (sampler.mip == MipFilter::kNearest) {
-      level = min(lod.level + shift_right_logical(lod.fraction, kFractionBits - 1), last);
+      r.level = min(lod.level + shift_right_logical(lod.fraction, kFractionBits - 1), last);
     }
   }
-  at.weight_mask = (at.half << 1) - select(at.half > I(0), I(1), I(0));
+  r.weight_mask = (r.half << 1) - select(r.half > I(0), I(1), I(0));
+  return r;
+}
 
+// One tap a level: uv as in `sample`.
+template <class F>
+SHOAL_INLINE Vec4<F> sample_levels(const Texture& texture, const Sampler& sampler, Vec2<F> uv, const Levels<F>& levels,
+                                   MaskOf<F> active) {
+  using I = IntOf<F>;
+  const Footprint<F> at{{fold(uv.x, sampler.wrap_u), fold(uv.y, sampler.wrap_v)}, levels.half, levels.weight_mask};
+  const I level = levels.level, fraction = levels.fraction;
   const bool two_levels = any((fraction != I(0)) & active);
   if (texture.format == TexelFormat::kRgba32Float) {
     const Vec4<F> a = bilinear_float<F>(texture, sampler, at, level);
@@ -213,6 +218,55 @@ SHOAL_INLINE Vec4<F> sample(const Texture& texture, const Sampler& sampler, Vec2
   const auto a = sample_one_level<F>(texture, sampler, at, one_level);
   if (!two_levels) return texels_to_float(a);
   return texels_to_float(lerp_texels(a, sample_one_level<F>(texture, sampler, at, one_level + 1), fraction));
+}
+
+// The mean of a pixel's probes (raster/footprint.h). As a running mean it is exact where all texels are equal and never
+// leaves their range.
+template <class F>
+__attribute__((noinline)) void sample_anisotropic(const Texture& texture, const Sampler& sampler, const Vec2<F>& uv,
+                                                  const Vec2<F>& duv_dx, const Vec2<F>& duv_dy, const MaskOf<F>& active,
+                                                  Vec4<F>& mean) {
+  const Probes<F> probes = footprint_probes<F>(texture, duv_dx, duv_dy, sampler.anisotropy);
+  const Levels<F> levels = choose_levels<F>(texture, sampler, [&]() SHOAL_LAMBDA { return half_log2<F>(probes.rho2); });
+  const F half(0.5f), part = F(1.0f) / to_float(probes.count), last = to_float(probes.count) - F(1.0f);
+  // Lanes that have had their last probe read it again, from cache, and keep their mean.
+  const auto probe = [&](F i) SHOAL_LAMBDA {
+    const F along = (min(i, last) + half) * part - half;
+    return sample_levels<F>(texture, sampler, uv + probes.axis_uv * along, levels, active);
+  };
+  mean = probe(F(0.0f));
+  for (std::int32_t i = 1; any((probes.count > IntOf<F>(i)) & active); ++i) {
+    const MaskOf<F> more = probes.count > IntOf<F>(i);
+    const Vec4<F> texel = probe(F(static_cast<float>(i)));
+    const F weight = select(more, F(1.0f / static_cast<float>(i + 1)), F(0.0f));
+    mean = {mean.x + (texel.x - mean.x) * weight, mean.y + (texel.y - mean.y) * weight,
+            mean.z + (texel.z - mean.z) * weight, mean.w + (texel.w - mean.w) * weight};
+  }
+}
+
+}  // namespace sample_detail
+
+// Samples `texture` at `uv`: linear light, alpha as stored.
+//   uv              any value; (0, 0) is the corner of the first texel, v goes down the rows
+//   duv_dx, duv_dy  derivatives of uv over one pixel
+//   active          lanes that are wanted; the others read only valid texels too and return anything finite
+// Returns R, G, B, A, in [0, 1] for the 8-bit formats. uv that is NaN or infinite is taken as some valid texel.
+// Source: Vulkan 1.3, 16.5 to 16.9 (image operations). Differs: nearest mip is floor(lod + 1/2); weights have 15 bits;
+// anisotropy: raster/footprint.h.
+// Error: against double precision on the stored texels 4 / 32767, plus the rounding of uv: 2^-24 of the texture's size
+// in texels, times the difference of neighbours (test_texture.cpp, "filtering"); the mean of probes 1e-6 more.
+template <class F>
+SHOAL_INLINE Vec4<F> sample(const Texture& texture, const Sampler& sampler, Vec2<F> uv, Vec2<F> duv_dx, Vec2<F> duv_dy,
+                            MaskOf<F> active) {
+  using namespace sample_detail;
+  if (sampler.anisotropy > 1) {
+    Vec4<F> mean;
+    sample_anisotropic<F>(texture, sampler, uv, duv_dx, duv_dy, active, mean);
+    return mean;
+  }
+  const Levels<F> levels =
+      choose_levels<F>(texture, sampler, [&]() SHOAL_LAMBDA { return level_of_detail<F>(texture, duv_dx, duv_dy); });
+  return sample_levels<F>(texture, sampler, uv, levels, active);
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

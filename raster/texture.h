@@ -42,6 +42,7 @@ struct Sampler {
   Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
   Filter magnify = Filter::kLinear, minify = Filter::kLinear;
   MipFilter mip = MipFilter::kLinear;
+  int anisotropy = 1;  // 1 (none) to 16; a frame's setting, not a file's
 };
 
 // Builds a texture and its mip chain.

@@ -31,7 +31,8 @@ void check_settings(const FrameSettings& s, const RenderScene& scene) {
         "threads " + std::to_string(s.threads) + " is out of range; expected 1 to 256");
   check(s.tile_px >= 16 && s.tile_px <= 256 && (s.tile_px & (s.tile_px - 1)) == 0,
         "tile " + std::to_string(s.tile_px) + " is not allowed; expected a power of two from 16 to 256");
-  check(s.anisotropy == 1, "anisotropy " + std::to_string(s.anisotropy) + " has not come yet; expected 1");
+  check(s.anisotropy >= 1 && s.anisotropy <= 16,
+        "anisotropy " + std::to_string(s.anisotropy) + " is out of range; expected 1 to 16");
   check(s.shadow_map_px >= 256 && s.shadow_map_px <= 8192 && (s.shadow_map_px & (s.shadow_map_px - 1)) == 0,
         "shadow map size " + std::to_string(s.shadow_map_px) +
             " is not allowed; expected a power of two from 256 to 8192");
@@ -67,6 +68,7 @@ struct Renderer::Impl {
   FrameData frame;
   Geometry outlines;  // of the bodies of water
   Materials outline_materials;
+  std::vector<Material> filtered_materials;  // the scene's with the frame's texture filtering, where that is not theirs
   StageClock clock;
 
   Impl(const RenderScene& s, const FrameSettings& settings)
@@ -83,6 +85,7 @@ struct Renderer::Impl {
     f.bin_grid = make_bin_grid(settings.width_px, settings.height_px, settings.tile_px);
     f.geometry = view_of(scene.geometry, scene.materials);
     f.water_geometry = view_of(outlines, outline_materials);
+    filter_materials();
     f.bins = make_bins(scene.geometry.chunks.size());
     f.water_bins.items.resize(scene.waters.size());
     read_method_options(method, settings.method_options, f.method_option);
@@ -118,6 +121,14 @@ struct Renderer::Impl {
       append_mesh(outlines, mesh);
     }
     first_chunk.push_back(static_cast<std::uint32_t>(outlines.chunks.size()));
+  }
+
+  // Every pass reads its samplers from the view's materials.
+  void filter_materials() {
+    if (frame.settings.anisotropy == 1) return;
+    filtered_materials = scene.materials.materials;
+    for (Material& m : filtered_materials) m.set_anisotropy(frame.settings.anisotropy);
+    frame.geometry.materials = filtered_materials.data();
   }
 
   bool captures() const { return frame.settings.digests || frame.settings.aovs != 0; }

@@ -9,8 +9,6 @@
 
 #include "core/wide/isa_select.h"
 
-#define SHOAL_OP __attribute__((always_inline))
-
 namespace shoal::inline SHOAL_ISA_NS {
 
 struct WideM {
@@ -80,13 +78,13 @@ struct alignas(64) WideF {
   wide_detail::VF part[wide_detail::kParts];
   WideF() = default;
   SHOAL_INLINE WideF(float s) {  // NOLINT: broadcast is implicit on purpose
-    *this = wide_detail::each_offset<WideF>([s](int) SHOAL_OP { return wide_detail::f_set1(s); });
+    *this = wide_detail::each_offset<WideF>([s](int) SHOAL_LAMBDA { return wide_detail::f_set1(s); });
   }
   static SHOAL_INLINE WideF load(const float* p) {
-    return wide_detail::each_offset<WideF>([p](int i) SHOAL_OP { return wide_detail::f_load(p + i); });
+    return wide_detail::each_offset<WideF>([p](int i) SHOAL_LAMBDA { return wide_detail::f_load(p + i); });
   }
   SHOAL_INLINE void store(float* p) const {
-    wide_detail::store_each(*this, [p](wide_detail::VF v, int i) SHOAL_OP { wide_detail::f_store(p + i, v); });
+    wide_detail::store_each(*this, [p](wide_detail::VF v, int i) SHOAL_LAMBDA { wide_detail::f_store(p + i, v); });
   }
 };
 
@@ -94,25 +92,25 @@ struct alignas(64) WideI {
   wide_detail::VI part[wide_detail::kParts];
   WideI() = default;
   SHOAL_INLINE WideI(std::int32_t s) {  // NOLINT: broadcast is implicit on purpose
-    *this = wide_detail::each_offset<WideI>([s](int) SHOAL_OP { return wide_detail::i_set1(s); });
+    *this = wide_detail::each_offset<WideI>([s](int) SHOAL_LAMBDA { return wide_detail::i_set1(s); });
   }
   static SHOAL_INLINE WideI load(const std::int32_t* p) {
-    return wide_detail::each_offset<WideI>([p](int i) SHOAL_OP { return wide_detail::i_load(p + i); });
+    return wide_detail::each_offset<WideI>([p](int i) SHOAL_LAMBDA { return wide_detail::i_load(p + i); });
   }
   SHOAL_INLINE void store(std::int32_t* p) const {
-    wide_detail::store_each(*this, [p](wide_detail::VI v, int i) SHOAL_OP { wide_detail::i_store(p + i, v); });
+    wide_detail::store_each(*this, [p](wide_detail::VI v, int i) SHOAL_LAMBDA { wide_detail::i_store(p + i, v); });
   }
 };
 
-#define SHOAL_WIDE_UNARY(R, NAME, A, T, EXPR)             \
-  SHOAL_INLINE R NAME(A a) {                              \
-    using namespace wide_detail;                          \
-    return each<R>(a, [](T x) SHOAL_OP { return EXPR; }); \
+#define SHOAL_WIDE_UNARY(R, NAME, A, T, EXPR)                 \
+  SHOAL_INLINE R NAME(A a) {                                  \
+    using namespace wide_detail;                              \
+    return each<R>(a, [](T x) SHOAL_LAMBDA { return EXPR; }); \
   }
-#define SHOAL_WIDE_BINARY(R, NAME, A, T, EXPR)                    \
-  SHOAL_INLINE R NAME(A a, A b) {                                 \
-    using namespace wide_detail;                                  \
-    return each<R>(a, b, [](T x, T y) SHOAL_OP { return EXPR; }); \
+#define SHOAL_WIDE_BINARY(R, NAME, A, T, EXPR)                        \
+  SHOAL_INLINE R NAME(A a, A b) {                                     \
+    using namespace wide_detail;                                      \
+    return each<R>(a, b, [](T x, T y) SHOAL_LAMBDA { return EXPR; }); \
   }
 
 SHOAL_WIDE_BINARY(WideF, operator+, WideF, VF, x + y)
@@ -138,15 +136,15 @@ SHOAL_INLINE WideI operator-(WideI a) { return WideI(0) - a; }
 SHOAL_INLINE WideI operator~(WideI a) { return a ^ WideI(-1); }
 SHOAL_INLINE WideI operator<<(WideI a, int n) {
   using namespace wide_detail;
-  return each<WideI>(a, [n](VI x) SHOAL_OP { return (VI)((VU)x << static_cast<std::uint32_t>(n)); });
+  return each<WideI>(a, [n](VI x) SHOAL_LAMBDA { return (VI)((VU)x << static_cast<std::uint32_t>(n)); });
 }
 SHOAL_INLINE WideI operator>>(WideI a, int n) {
   using namespace wide_detail;
-  return each<WideI>(a, [n](VI x) SHOAL_OP { return x >> n; });
+  return each<WideI>(a, [n](VI x) SHOAL_LAMBDA { return x >> n; });
 }
 SHOAL_INLINE WideI shift_right_logical(WideI a, int n) {
   using namespace wide_detail;
-  return each<WideI>(a, [n](VI x) SHOAL_OP { return (VI)((VU)x >> static_cast<std::uint32_t>(n)); });
+  return each<WideI>(a, [n](VI x) SHOAL_LAMBDA { return (VI)((VU)x >> static_cast<std::uint32_t>(n)); });
 }
 SHOAL_WIDE_BINARY(WideI, shift_left, WideI, VI, i_shl(x, y))
 SHOAL_WIDE_BINARY(WideI, shift_right_logical, WideI, VI, i_shr(x, y))
@@ -170,7 +168,7 @@ SHOAL_INLINE std::uint32_t to_bits(WideM m) {
   return bits;
 }
 SHOAL_INLINE WideM mask_from_bits(std::uint32_t bits) {
-  return wide_detail::each_offset<WideM>([bits](int i) SHOAL_OP { return wide_detail::m_from_bits(bits >> i); });
+  return wide_detail::each_offset<WideM>([bits](int i) SHOAL_LAMBDA { return wide_detail::m_from_bits(bits >> i); });
 }
 SHOAL_INLINE bool any(WideM m) { return to_bits(m) != 0; }
 SHOAL_INLINE bool all(WideM m) { return to_bits(m) == 0xFFFFu; }
@@ -178,11 +176,11 @@ SHOAL_INLINE bool none(WideM m) { return to_bits(m) == 0; }
 
 SHOAL_INLINE WideF select(WideM m, WideF a, WideF b) {
   using namespace wide_detail;
-  return each<WideF>(m, a, b, [](VM k, VF x, VF y) SHOAL_OP { return f_select(k, x, y); });
+  return each<WideF>(m, a, b, [](VM k, VF x, VF y) SHOAL_LAMBDA { return f_select(k, x, y); });
 }
 SHOAL_INLINE WideI select(WideM m, WideI a, WideI b) {
   using namespace wide_detail;
-  return each<WideI>(m, a, b, [](VM k, VI x, VI y) SHOAL_OP { return i_select(k, x, y); });
+  return each<WideI>(m, a, b, [](VM k, VI x, VI y) SHOAL_LAMBDA { return i_select(k, x, y); });
 }
 SHOAL_WIDE_BINARY(WideF, min, WideF, VF, f_min(x, y))
 SHOAL_WIDE_BINARY(WideF, max, WideF, VF, f_max(x, y))
@@ -217,19 +215,19 @@ SHOAL_INLINE WideF compress(WideF v, WideM m) { return as_float(compress(as_int(
 
 SHOAL_INLINE WideI gather(const std::int32_t* base, WideI index) {
   using namespace wide_detail;
-  return each<WideI>(index, [base](VI i) SHOAL_OP { return i_gather(base, i); });
+  return each<WideI>(index, [base](VI i) SHOAL_LAMBDA { return i_gather(base, i); });
 }
 SHOAL_INLINE WideI gather(const std::int32_t* base, WideI index, WideM m, WideI other) {
   using namespace wide_detail;
-  return each<WideI>(index, m, other, [base](VI i, VM k, VI o) SHOAL_OP { return i_gather(base, i, k, o); });
+  return each<WideI>(index, m, other, [base](VI i, VM k, VI o) SHOAL_LAMBDA { return i_gather(base, i, k, o); });
 }
 SHOAL_INLINE WideF gather(const float* base, WideI index) {
   using namespace wide_detail;
-  return each<WideF>(index, [base](VI i) SHOAL_OP { return f_gather(base, i); });
+  return each<WideF>(index, [base](VI i) SHOAL_LAMBDA { return f_gather(base, i); });
 }
 SHOAL_INLINE WideF gather(const float* base, WideI index, WideM m, WideF other) {
   using namespace wide_detail;
-  return each<WideF>(index, m, other, [base](VI i, VM k, VF o) SHOAL_OP { return f_gather(base, i, k, o); });
+  return each<WideF>(index, m, other, [base](VI i, VM k, VF o) SHOAL_LAMBDA { return f_gather(base, i, k, o); });
 }
 SHOAL_INLINE void load_texel_pairs(const std::uint32_t* base, WideI index, WideI& first, WideI& second) {
   using namespace wide_detail;
@@ -244,7 +242,7 @@ SHOAL_INLINE void load_texel_pairs(const std::uint32_t* base, WideI index, WideI
   }
 }
 SHOAL_INLINE WideI load_u8(const std::uint8_t* p) {
-  return wide_detail::each_offset<WideI>([p](int i) SHOAL_OP { return wide_detail::i_load_u8(p + i); });
+  return wide_detail::each_offset<WideI>([p](int i) SHOAL_LAMBDA { return wide_detail::i_load_u8(p + i); });
 }
 SHOAL_INLINE void store_u8(std::uint8_t* p, WideI v) { wide_detail::i_store_u8(p, v.part); }
 SHOAL_INLINE void store_masked(float* p, WideF v, WideM m) {

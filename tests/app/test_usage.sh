@@ -57,7 +57,8 @@ r "--camera" --camera -1
 r "--isa 'mmx': unknown; expected one of: .*scalar" --isa mmx
 refused_isa=$(for isa in scalar sse4.2 avx2 avx512 neon; do "$shoal" list isas | grep -qx "$isa" || echo "$isa"; done | head -1)
 [ -z "$refused_isa" ] || r "--isa '$refused_isa': this machine cannot run it" --isa "$refused_isa"
-r "--anisotropy '4': has not come yet" --anisotropy 4
+r "--anisotropy" --anisotropy 0
+r "--anisotropy" --anisotropy 17
 r "--shadows 'rays': has not come yet" --shadows rays
 r "--shadows 'on': unknown; expected one of: off, map" --shadows on
 r "--shadow-map '1000': not a power of two; expected 256, 512, 1024, 2048, 4096 or 8192" --shadow-map 1000

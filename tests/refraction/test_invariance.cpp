@@ -34,13 +34,14 @@ std::vector<Digests> render_all(const RenderScene& scene, FrameSettings settings
   return out;
 }
 
-void check_settings(const char* name, int width_px, int height_px, int spp) {
+void check_settings(const char* name, int width_px, int height_px, int spp, int anisotropy = 1) {
   const RenderScene scene = built_in(name, 2000);
   for (const MethodInfo& method : method_infos()) {
     FrameSettings settings;
     settings.method = method.name;
     settings.width_px = width_px, settings.height_px = height_px;
     settings.spp = spp;
+    settings.anisotropy = anisotropy;
     settings.digests = true;
     const std::vector<Digests> expected = render_all(scene, settings, {Isa::kScalar, 1, 64});
     std::vector<How> ways;
@@ -74,6 +75,7 @@ TEST_CASE("invariance: box, one sample") { check_settings("box", 131, 77, 1); }
 TEST_CASE("invariance: box, four samples") { check_settings("box", 67, 131, 4); }
 TEST_CASE("invariance: pool, one sample") { check_settings("pool", 131, 77, 1); }
 TEST_CASE("invariance: pool, four samples") { check_settings("pool", 97, 65, 4); }
+TEST_CASE("invariance: pool, anisotropic textures") { check_settings("pool", 131, 77, 1, 8); }
 TEST_CASE("invariance: frames smaller than a block") { check_settings("box", 3, 2, 1); }
 
 TEST_CASE("invariance: a digest sees the camera, the method and the size") {
