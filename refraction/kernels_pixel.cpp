@@ -34,7 +34,7 @@ struct MappedSun {
   SHOAL_INLINE Vec3<F> reach(Vec3<F> irradiance, WideM facing) const {
     const WideM lanes = facing & active;
     if (map == nullptr || none(lanes)) return irradiance;
-    return irradiance * sun_visibility(*map, at.position_world, at.normal_world, lanes);
+    return irradiance * sun_visibility(*map, at.position_world, at.normal_world, normalize(at.facet_world), lanes);
   }
 };
 
