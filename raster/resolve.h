@@ -21,6 +21,7 @@ template <class F>
 struct PixelAttributes {
   Vec3<F> position_world;
   Vec3<F> normal_world;  // unit, turned to the viewer where the triangle shows its back
+  Vec3<F> facet_world;   // the triangle's own normal, by its winding, of any length
   F t;                   // of the hit along the ray, in its direction's lengths
   Vec2<F> uv, duv_dx, duv_dy;
   Vec4<F> color;  // COLOR_0, 1 where there is none
@@ -167,7 +168,8 @@ __attribute__((noinline)) inline void resolve_attributes(const GeometryView& g, 
   out.position_world = t.p0 + t.e1 * u + t.e2 * v;
   // Seen from behind (double-sided materials), the normal turns to the viewer.
   const Vec3<WideF> normal = normalize(t.n0 * w + t.n1 * u + t.n2 * v);
-  const WideM behind = dot(cross(t.e1, t.e2), ray.direction_world) > WideF(0.0f);
+  out.facet_world = cross(t.e1, t.e2);
+  const WideM behind = dot(out.facet_world, ray.direction_world) > WideF(0.0f);
   out.normal_world = select<WideF>(behind, -normal, normal);
   out.uv = t.uv0 + t.duv1 * u + t.duv2 * v;
   out.duv_dx = t.duv1 * d.u_dx + t.duv2 * d.v_dx;

@@ -37,12 +37,13 @@ struct SceneSun {
   SHOAL_INLINE Vec3<F> reach(Vec3<F> irradiance, WideM facing) const {
     const WideM lanes = facing & active;
     if (none(lanes)) return irradiance;
+    const Vec3<WideF> facet = normalize(at.facet_world);
     if (frame.settings.shadows == Shadows::kRays) {
-      const WideM dark = sun_blocked(frame, water, at.position_world, at.normal_world, lanes);
+      const WideM dark = sun_blocked(frame, water, at.position_world, facet, lanes);
       return select<F>(dark, broadcast<F>(Vec3f{0, 0, 0}), irradiance);
     }
     if (map == nullptr) return irradiance;
-    return irradiance * sun_visibility(*map, at.position_world, at.normal_world, lanes);
+    return irradiance * sun_visibility(*map, at.position_world, at.normal_world, facet, lanes);
   }
 };
 

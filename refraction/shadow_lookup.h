@@ -11,30 +11,39 @@ static_assert(kShadowCell == 8, "the look-up shifts by 3");
 // The farthest tap's centre is 1.5 texels off on either axis: on a plane, this much along the normal times the sine to
 // the sun clears all nine (their depths are those of the plane at their centres).
 inline constexpr float kNormalOffsetTexels = 2.2f;
+// An interpolated normal and its triangle's own that agree less than this (cosine) are taken to agree so much.
+inline constexpr float kMinAgreement = 0.5f;
 
 // Weighted share of nine taps of one level that see the sun.
 //
 //   map       a level of the map of the medium that the points are in
 //   position  world; normal: unit, of the surface, towards the sun's side
+//   facet     unit, of the triangle itself, of either side: the texels lie on it, so it says how steep they are (where
+//             the interpolated normal faces the sun and the facet does not, its own texels would shade it)
 //   lanes     that are wanted; the others get anything from 0 to 1
 // Returns 0 (in shadow) to 1, and which of the lanes are inside of the level. The edge is two texels wide and moves
 // smoothly. Source: percentage-closer filtering (Reeves, Salesin, Cook 1987) over a box of two texels round the
 // bilinear position; normal offset as Holbert (2011). Error: none for points farther from a shadow's edge than
 // kNormalOffsetTexels + 1.5 texels along the surface (tests/refraction/test_shadow.cpp).
 __attribute__((noinline)) inline WideF level_visibility(const ShadowMap& map, Vec3<WideF> position, Vec3<WideF> normal,
-                                                        WideM lanes, WideM& inside) {
+                                                        Vec3<WideF> facet, WideM lanes, WideM& inside) {
   const WideF zero(0.0f), one(1.0f);
   if (map.bend.bent) {
     const Vec3<WideF> plane_normal = broadcast<WideF>(map.bend.normal), shear = broadcast<WideF>(map.bend.shear);
     const WideF depth_m = max(-dot(position - broadcast<WideF>(map.bend.origin), plane_normal), zero);
     position = position + shear * depth_m;
     // Sheared normals: the inverse transpose of I - shear normal^T.
-    const Vec3<WideF> turned = normalize(normal + plane_normal * dot(shear, normal));
-    normal = select<WideF>(depth_m > zero, turned, normal);
+    const auto turned = [&](Vec3<WideF> n) SHOAL_LAMBDA {
+      return select<WideF>(depth_m > zero, normalize(n + plane_normal * dot(shear, n)), n);
+    };
+    normal = turned(normal), facet = turned(facet);
   }
-  const WideF cosine = dot(normal, broadcast<WideF>(map.view.camera.forward_world));
-  const WideF sine = sqrt(max(one - cosine * cosine, zero));
-  position = position + normal * (sine * WideF(kNormalOffsetTexels * map.texel_m));
+  const Vec3<WideF> forward = broadcast<WideF>(map.view.camera.forward_world);
+  const WideF cosine = dot(normal, forward), facet_cosine = dot(facet, forward);
+  const WideF least_cosine2 = min(cosine * cosine, facet_cosine * facet_cosine);
+  const WideF sine = sqrt(max(one - least_cosine2, zero));
+  const WideF agreement = max(abs(dot(normal, facet)), WideF(kMinAgreement));
+  position = position + normal * (sine * WideF(kNormalOffsetTexels * map.texel_m) / agreement);
 
   const ClipVertex<WideF> at = project(map.view, position);
   const WideF first(0.0f), last(static_cast<float>(map.grid.width_px - 3));
@@ -72,11 +81,12 @@ __attribute__((noinline)) inline WideF level_visibility(const ShadowMap& map, Ve
 }
 
 // The same from the finest level that holds each point; 1 (lit) outside of all.
-SHOAL_INLINE WideF sun_visibility(const SunMap& map, Vec3<WideF> position, Vec3<WideF> normal, WideM lanes) {
+SHOAL_INLINE WideF sun_visibility(const SunMap& map, Vec3<WideF> position, Vec3<WideF> normal, Vec3<WideF> facet,
+                                  WideM lanes) {
   WideF seen(1.0f);
   for (const ShadowMap& level : map.levels) {
     WideM inside;
-    const WideF here = level_visibility(level, position, normal, lanes, inside);
+    const WideF here = level_visibility(level, position, normal, facet, lanes, inside);
     seen = select(inside, here, seen);
     lanes = lanes & !inside;
     if (none(lanes)) break;

@@ -1,11 +1,13 @@
 #!/bin/bash
-# Goldens: small frames of the built-in scenes, every camera and method, equal to the digest.
+# Goldens: small frames of the built-in scenes, every camera and method, and of the files of data/assets/, equal to the
+# digest.
 #
 #   run.sh SHOAL            compares; a failure leaves actual, expected and difference pictures in out/goldens/
 #   run.sh SHOAL --update   writes what SHOAL makes instead (scripts/update_goldens does this, and asks for the reason)
 #
-# A golden is SCENE_CAMERA_METHOD.txt, the digest of each stage, and .png, the picture. There is no tolerance. A golden
-# that is missing fails, and so does one that belongs to no scene, camera or method.
+# A golden is SCENE_CAMERA_METHOD.txt (for a file asset-FILE_CAMERA_TIME.txt), the digest of each stage, and .png, the
+# picture. There is no tolerance. A golden that is missing fails, and so does one that belongs to no scene, camera or
+# method.
 set -uo pipefail
 shoal=$(realpath "${1:?usage: run.sh SHOAL [--update]}")
 update=${2:-}
@@ -16,6 +18,8 @@ rm -rf $out
 mkdir -p $out
 scenes=(box pool)
 options=(--triangles 2000 --size 160x90 --quiet)
+assets=data/assets
+asset_options=(--method two-phase --size 320x180 --quiet)
 status=0 compared=0
 declare -A known
 complain() { echo "$*"; status=1; }
@@ -49,25 +53,33 @@ compare() {
   complain "$name: first stage that differs: ${stage:-none}; pixel: ${pixel:-none of the picture}; see $out/$name.*.png"
 }
 
+# frame NAME ARGUMENT...: renders it; then compares, or writes the golden.
+frame() {
+  local name=$1
+  shift
+  known[$name]=1
+  "$shoal" render "$@" --digest -o "$out/$name.actual.png" </dev/null >"$out/$name.txt" || { complain "$name: was not rendered"; return; }
+  if [[ $update != --update ]]; then
+    compare "$name"
+    return
+  fi
+  compared=$((compared + 1))
+  if same "$name"; then return; fi
+  mv "$out/$name.txt" "$goldens/$name.txt"
+  mv "$out/$name.actual.png" "$goldens/$name.png"
+  echo "$name"
+}
+
 for scene in "${scenes[@]}"; do
   for camera in $(cameras_of "$scene"); do
     for method in $("$shoal" list methods | awk '!/not the same bytes/ { print $1 }'); do
-      name=${scene}_${camera}_$method
-      known[$name]=1
-      "$shoal" render "$scene" --camera "$camera" --method "$method" "${options[@]}" --digest -o "$out/$name.actual.png" \
-        >"$out/$name.txt" || { complain "$name: was not rendered"; continue; }
-      if [[ $update == --update ]]; then
-        compared=$((compared + 1))
-        if same "$name"; then continue; fi
-        mv "$out/$name.txt" "$goldens/$name.txt"
-        mv "$out/$name.actual.png" "$goldens/$name.png"
-        echo "$name"
-      else
-        compare "$name"
-      fi
+      frame "${scene}_${camera}_$method" "$scene" --camera "$camera" --method "$method" "${options[@]}"
     done
   done
 done
+while read -r asset camera time; do
+  frame "asset-${asset}_${camera}_$time" "$assets/$asset.glb" --camera "$camera" --time "$time" "${asset_options[@]}"
+done <$goldens/assets.list
 for file in "$goldens"/*.txt; do
   name=$(basename "$file" .txt)
   [[ -e $file && -z ${known[$name]:-} ]] || continue

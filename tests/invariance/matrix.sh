@@ -45,12 +45,12 @@ files_of() {
 for build in "${builds[@]}"; do
   compiler=${build%-*} level=${build##*-}
   say "$build"
-  targets=(digest_tool)
-  if (( $# > 0 )); then targets+=(shoal); fi
   cmake -S . -B "$root/$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" \
     -DSHOAL_OPTIMIZE="-$level" -DSHOAL_BENCH=OFF >"$root/$build.log" 2>&1 || { cat "$root/$build.log"; exit 1; }
-  cmake --build "$root/$build" -j "$(jobs)" --target "${targets[@]}"
+  cmake --build "$root/$build" -j "$(jobs)" --target digest_tool shoal
   tests/invariance/sweep.sh $root/out/reference $root/out "$build" "$root/$build/bin/digest_tool" || status=1
+  SHOAL_SWEEP=short tests/invariance/sweep.sh $root/out/reference-assets $root/out "$build-assets" \
+    bash tests/invariance/asset_digests.sh "$root/$build/bin/shoal" || status=1
   if (( $# > 0 )); then files_of "$build" "$@"; fi
 done
 

@@ -213,6 +213,68 @@ TEST_CASE("shadows are those of rays, in the air, through water and under it") {
   }
 }
 
+TEST_CASE("a coarse ball with smooth normals does not shade its own lit facets") {
+  // Twelve facets round and six down: interpolated normals are up to 15 degrees off the facets'.
+  Scene scene;
+  MeshPrimitive ball;
+  const double pi = 3.14159265358979;
+  for (int i = 0; i <= 6; ++i) {
+    for (int j = 0; j < 12; ++j) {
+      const double a = pi * i / 6, b = pi * j / 6;
+      const Vec3f p{float(std::sin(a) * std::cos(b)), float(std::cos(a)), float(std::sin(a) * std::sin(b))};
+      ball.positions.push_back(p);
+      ball.normals.push_back(p);
+      if (i == 6) continue;
+      const auto at = [&](int down, int round) { return std::uint32_t(12 * (i + down) + (j + round) % 12); };
+      for (const std::uint32_t k : {at(0, 0), at(0, 1), at(1, 1), at(0, 0), at(1, 1), at(1, 0)})
+        ball.indices.push_back(k);
+    }
+  }
+  scene.materials.materials.resize(1);
+  scene.meshes.push_back({"ball", {ball}});
+  Node node, sun;
+  node.mesh = 0;
+  scene.nodes.push_back(node);
+  sun.light = 0;
+  sun.world_from_local = aimed({0, 0, 0}, kSun);
+  scene.lights.push_back({{1, 1, 1}, 3});
+  scene.nodes.push_back(sun);
+  const bool water = GENERATE(false, true);
+  if (water) {  // over all of it
+    Node body;
+    body.water = 0;
+    body.world_from_local = frame({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 2, 0});
+    WaterSpec spec;
+    spec.has_size = spec.has_depth = true;
+    spec.size_x = spec.size_z = 20, spec.depth = 10;
+    scene.waters.push_back(spec);
+    scene.nodes.push_back(body);
+  }
+  Node camera;
+  camera.camera = 0;
+  camera.world_from_local = aimed(Vec3d{2.2, 1.4, 1}, {0, 0, 0});
+  scene.cameras.resize(1);
+  scene.nodes.push_back(camera);
+  const RenderScene built = build_render_scene(scene);
+  FrameSettings settings = settings_of(Shadows::kMap);
+  settings.shadow_map_px = GENERATE(256, 1024);
+  const Frame mapped = render(built, settings, 0);
+  settings.shadows = Shadows::kOff;
+  const Frame open = render(built, settings, 0);
+  int lit = 0, wrong = 0;
+  for (std::size_t pixel = 0; pixel < open.linear.size() / 4; ++pixel) {
+    const std::size_t id = aov(open, Aov::kIdTriangle).uints[pixel];
+    if (id >= built.geometry.triangles.size()) continue;
+    const Corners t = corners(built, id);
+    if (-dot(unit(cross(t.b - t.a, t.c - t.a)), kSun) < 0.3) continue;
+    ++lit;
+    wrong += std::memcmp(&mapped.linear[4 * pixel], &open.linear[4 * pixel], 12) != 0;
+  }
+  CAPTURE(water, settings.shadow_map_px, lit);
+  CHECK(lit > 1000);
+  CHECK(wrong == 0);
+}
+
 TEST_CASE("a shear takes bent sunlight to straight") {
   WaterBody body;
   body.normal = {0.6f, 0.8f, 0};
