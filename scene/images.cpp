@@ -156,12 +156,13 @@ ChannelMap channel_map(const OIIO::ImageSpec& spec, int channels) {
 template <class T>
 std::vector<T> read_channels(Reader& reader, int channels, OIIO::TypeDesc type) {
   const OIIO::ImageSpec& spec = reader.spec();
-  const std::size_t texels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+  const std::size_t row = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(channels);
+  const std::size_t all = row * static_cast<std::size_t>(spec.height);
   std::vector<T> values;
-  values.reserve(texels * static_cast<std::size_t>(channels));
+  values.reserve(all);
   bool ok = true;
   if (spec.tile_width != 0) {
-    values.resize(values.capacity());
+    values.resize(all);
     ok = reader.input->read_image(0, 0, 0, channels, type, values.data());
   } else {
     // Band after band: a small file that promises a large image touches little memory before it turns out.
@@ -169,8 +170,7 @@ std::vector<T> read_channels(Reader& reader, int channels, OIIO::TypeDesc type) 
     for (int y = 0; ok && y < spec.height; y += kBand) {
       const int rows = std::min(kBand, spec.height - y);
       const std::size_t first = values.size();
-      values.resize(first + static_cast<std::size_t>(rows) * static_cast<std::size_t>(spec.width) *
-                                static_cast<std::size_t>(channels));
+      values.resize(first + static_cast<std::size_t>(rows) * row);
       const int y0 = spec.y + y;
       ok = reader.input->read_scanlines(0, 0, y0, y0 + rows, 0, 0, channels, type, &values[first]);
     }

@@ -33,6 +33,79 @@ std::size_t string_length(Bytes file, std::size_t at, const std::string& name) {
 // Lines in a chunk, by the attribute `compression`: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
 constexpr std::uint64_t kLinesInChunk[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 
+// The library reads a value of these types by their own size, whatever length the file gives it.
+struct FixedType {
+  const char* name;
+  std::size_t size;
+};
+constexpr FixedType kFixedTypes[] = {
+    {"box2f", 16},
+    {"box2i", 16},
+    {"chromaticities", 32},
+    {"compression", 1},
+    {"deepImageState", 1},
+    {"double", 8},
+    {"envmap", 1},
+    {"float", 4},
+    {"int", 4},
+    {"keycode", 28},
+    {"lineOrder", 1},
+    {"m33d", 72},
+    {"m33f", 36},
+    {"m44d", 128},
+    {"m44f", 64},
+    {"rational", 8},
+    {"tiledesc", 9},
+    {"timecode", 8},
+    {"v2d", 16},
+    {"v2f", 8},
+    {"v2i", 8},
+    {"v3d", 24},
+    {"v3f", 12},
+    {"v3i", 12},
+};
+
+// Names, each with 16 bytes after it, up to an empty one at the end.
+bool is_channel_list(Bytes data, const std::string& name) {
+  std::size_t at = 0;
+  while (at < data.size() && data[at] != 0) {
+    at += string_length(data, at, name) + 1;
+    if (data.size() - at < 16) return false;
+    at += 16;
+  }
+  return at + 1 == data.size();
+}
+
+// Lengths, each with as many bytes after it.
+bool is_string_vector(Bytes data) {
+  std::size_t at = 0;
+  while (data.size() - at >= 4) {
+    const std::size_t length = read_u32(data, at);
+    at += 4;
+    if (length > data.size() - at) return false;
+    at += length;
+  }
+  return at == data.size();
+}
+
+bool is_preview(Bytes data) {
+  if (data.size() < 8) return false;
+  const std::uint64_t width = read_u32(data, 0), height = read_u32(data, 4);
+  return width <= data.size() && height <= data.size() && width * height * 4 == data.size() - 8;
+}
+
+// False where the library would not stop at the value's end. Strings and types that it does not know end where they
+// say.
+bool has_its_size(const std::string& type, Bytes data, const std::string& name) {
+  if (type == "chlist") return is_channel_list(data, name);
+  if (type == "stringvector") return is_string_vector(data);
+  if (type == "preview") return is_preview(data);
+  if (type == "idmanifest") return false;  // compressed, of any size once it is not
+  const auto* fixed =
+      std::find_if(std::begin(kFixedTypes), std::end(kFixedTypes), [&](const FixedType& t) { return type == t.name; });
+  return fixed == std::end(kFixedTypes) || fixed->size == data.size();
+}
+
 struct Header {
   std::uint64_t width = 0, height = 0;
   std::uint64_t tile_width = 0, tile_height = 0;
@@ -54,10 +127,7 @@ void read_window(Bytes data, const std::string& name, Header& header) {
   header.height = side(4);
 }
 
-void read_attribute(Bytes file, std::size_t name_at, std::size_t name_length, Bytes data, const std::string& name,
-                    Header& header) {
-  const std::string attribute(file.begin() + static_cast<std::ptrdiff_t>(name_at),
-                              file.begin() + static_cast<std::ptrdiff_t>(name_at + name_length));
+void read_attribute(const std::string& attribute, Bytes data, const std::string& name, Header& header) {
   if (attribute == "dataWindow") {
     read_window(data, name, header);
   } else if (attribute == "tiles") {
@@ -109,16 +179,21 @@ void check_exr_header(Bytes file, const std::string& name, const ImageLimits& li
 
   Header header;
   std::size_t at = 8;
-  while (true) {
-    const std::size_t name_at = at, name_length = string_length(file, at, name);
-    at += name_length + 1;
-    if (name_length == 0) break;
-    at += string_length(file, at, name) + 1;
+  const auto next_string = [&] {
+    const std::size_t length = string_length(file, at, name);
+    const std::string text(reinterpret_cast<const char*>(&file[at]), length);
+    at += length + 1;
+    return text;
+  };
+  for (std::string attribute = next_string(); !attribute.empty(); attribute = next_string()) {
+    const std::string type = next_string();
     if (file.size() - at < 4) fail(name, "is cut short");
     const std::size_t size = read_u32(file, at);
     at += 4;
     if (size > file.size() - at) fail(name, "is damaged (an attribute is longer than the file)");
-    read_attribute(file, name_at, name_length, file.subspan(at, size), name, header);
+    const Bytes data = file.subspan(at, size);
+    if (!has_its_size(type, data, name)) fail(name, "is damaged (an attribute has a size that is not its type's)");
+    read_attribute(attribute, data, name, header);
     at += size;
   }
   const bool complete = header.width != 0 && header.has_channels && header.compression < std::size(kLinesInChunk);
