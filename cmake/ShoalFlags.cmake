@@ -31,6 +31,13 @@ if(SHOAL_SANITIZE)
   target_link_options(shoal_flags INTERFACE -fsanitize=${SHOAL_SANITIZE})
 endif()
 
+if(SHOAL_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    message(FATAL_ERROR "SHOAL_FUZZ needs Clang's libFuzzer: cmake --preset fuzz")
+  endif()
+  target_compile_options(shoal_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
 # Headers of the host that a cross-compiler may see: header-only libraries, one symbolic link each, nothing else of
 # /usr/include.
 if(CMAKE_CROSSCOMPILING)

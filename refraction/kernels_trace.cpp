@@ -70,8 +70,9 @@ WideI first_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferentia
   return WideI::load(packet.id);
 }
 
-WideM sun_blocked(const FrameData& f, const WaterPass* water, Vec3<WideF> position, Vec3<WideF> normal, WideM lanes) {
+WideM sun_blocked(const FrameData& f, const WaterPass* water, Vec3<WideF> position, Vec3<WideF> facet, WideM lanes) {
   const Vec3f direction = f.scene->lighting.directional[0].direction_world;
+  const Vec3<WideF> normal = select<WideF>(dot(facet, broadcast<WideF>(direction)) > WideF(0.0f), -facet, facet);
   // Off the surface by more than its own rounding.
   const WideF size = abs(position.x) + abs(position.y) + abs(position.z);
   Vec3<WideF> from = position + normal * (WideF(1e-4f) + size * WideF(4e-6f));

@@ -30,9 +30,11 @@ void fail(const std::string& path, const std::string& what, const std::string& e
 }
 
 void warn(Document& document, const std::string& line) {
+  constexpr std::size_t kMaxLines = 64;
   const std::string text = one_line(line, 400);
   auto& lines = document.warnings;
-  if (std::find(lines.begin(), lines.end(), text) == lines.end()) lines.push_back(text);
+  if (lines.size() > kMaxLines || std::find(lines.begin(), lines.end(), text) != lines.end()) return;
+  lines.push_back(lines.size() < kMaxLines ? text : "further warnings are left out");
 }
 
 void charge(Document& document, std::uint64_t bytes, const std::string& what) {

@@ -1,6 +1,8 @@
 // Skins, morph weights and animations. Source: glTF 2.0 specification, 3.7.2.2, 3.7.3 and 3.11.
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "scene/animate.h"
 #include "scene/gltf_internal.h"
@@ -137,6 +139,7 @@ class MotionReader {
       wrong(label + " has " + std::to_string(given.size()) + " weights",
             "expected " + std::to_string(targets) + ", one a morph target");
     }
+    charge(document_, (document_.instance_counts[file_node] + std::uint64_t{1}) * targets * sizeof(float), label);
     std::vector<float> weights(targets, 0.0f);
     for (std::size_t i = 0; i < std::min(targets, given.size()); ++i) {
       weights[i] = static_cast<float>(given[i]);
@@ -156,6 +159,7 @@ class MotionReader {
     const tinygltf::Animation& from = document_.model.animations[index];
     Animation animation;
     animation.name = from.name;
+    moved_.clear();
     for (std::size_t c = 0; c < from.channels.size(); ++c) {
       read_channel(from, from.channels[c], label_of("animations", index, from.name) + "." + label_of("channels", c),
                    animation);
@@ -188,12 +192,9 @@ class MotionReader {
       wrong(label + " moves " + label_of("nodes", file_node) + ", which has a matrix",
             "expected translation, rotation and scale");
     }
-    for (const Channel& other : animation.channels) {
-      if (other.node == channel.node && other.path == channel.path) {
-        wrong(
-            label + " moves the " + file_channel.target_path + " of " + label_of("nodes", file_node) + " a second time",
+    if (!moved_.insert({file_node, channel.path}).second) {
+      wrong(label + " moves the " + file_channel.target_path + " of " + label_of("nodes", file_node) + " a second time",
             "expected one channel for it in an animation");
-      }
     }
     const int mesh = document_.model.nodes[file_node].mesh;
     const std::size_t weights = of_weights && mesh >= 0 ? target_count(mesh) : 0;
@@ -276,6 +277,7 @@ class MotionReader {
   static constexpr float kMaxWeight = 1e6f;
   Document& document_;
   Scene& scene_;
+  std::set<std::pair<std::size_t, ChannelPath>> moved_;  // by the animation that is being read
 };
 
 }  // namespace

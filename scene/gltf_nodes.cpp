@@ -113,6 +113,9 @@ LocalTransform local_transform(const Document& document, const tinygltf::Node& n
 struct Bounds {
   double min[3] = {0, 0, 0}, max[3] = {0, 0, 0};
 };
+struct MeshSize {
+  std::uint64_t triangles = 0, vertices = 0;
+};
 Bounds bounds_of(const Mesh& mesh) {
   Bounds bounds;
   for (const MeshPrimitive& primitive : mesh.primitives) {
@@ -132,9 +135,12 @@ class TreeReader {
   TreeReader(Document& document, Scene& scene) : document_(document), scene_(scene) {
     for (const Mesh& mesh : scene.meshes) {
       bounds_.push_back(bounds_of(mesh));
-      std::uint64_t triangles = 0;
-      for (const MeshPrimitive& primitive : mesh.primitives) triangles += primitive.indices.size() / 3;
-      triangles_.push_back(triangles);
+      MeshSize size;
+      for (const MeshPrimitive& primitive : mesh.primitives) {
+        size.triangles += primitive.indices.size() / 3;
+        size.vertices += primitive.positions.size();
+      }
+      sizes_.push_back(size);
     }
   }
 
@@ -238,11 +244,16 @@ class TreeReader {
   }
 
   void count_mesh(std::size_t mesh, const Affine& world, const std::string& label) {
-    total_triangles_ += triangles_[mesh];
+    total_triangles_ += sizes_[mesh].triangles;
     if (total_triangles_ > document_.limits.max_triangles) {
       fail(document_.path, "draws more than " + std::to_string(document_.limits.max_triangles) + " triangles",
            "expected fewer (meshes count once for each node)");
     }
+    // What a node draws is placed in the world vertex by vertex, whatever its triangles use.
+    charge(document_,
+           sizes_[mesh].vertices * (sizeof(VertexRecord) + sizeof(Vec3f)) +
+               sizes_[mesh].triangles * (sizeof(Geometry::TriangleRecord) + 3),
+           label);
     const Bounds& b = bounds_[mesh];
     for (const auto& row : world.m) {
       double reach = std::fabs(row[3]);
@@ -273,7 +284,7 @@ class TreeReader {
   Document& document_;
   Scene& scene_;
   std::vector<Bounds> bounds_;
-  std::vector<std::uint64_t> triangles_;
+  std::vector<MeshSize> sizes_;
   std::vector<Affine> worlds_;
   std::uint64_t total_triangles_ = 0;
 };

@@ -58,9 +58,10 @@ Container split_glb(const Document& document) {
   return parts;
 }
 
-// Library parsers recurse: the depth is counted first.
-void check_depth(const Document& document, Bytes text) {
+// Library parsers recurse: the depth is counted first. So are the values: two bytes of text become some 150 of memory.
+void check_shape(const Document& document, Bytes text) {
   int depth = 0;
+  std::uint64_t values = 1;
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const std::uint8_t c = text[i];
@@ -69,7 +70,10 @@ void check_depth(const Document& document, Bytes text) {
       if (c == '"') in_string = false;
     } else if (c == '"') {
       in_string = true;
+    } else if (c == ',') {
+      ++values;
     } else if (c == '[' || c == '{') {
+      ++values;
       if (++depth > document.limits.max_json_depth) {
         fail(document.path, "has JSON nested deeper than " + std::to_string(document.limits.max_json_depth) + " levels",
              "expected a glTF 2.0 file");
@@ -78,13 +82,17 @@ void check_depth(const Document& document, Bytes text) {
       --depth;
     }
   }
+  if (values > document.limits.max_json_values) {
+    fail(document.path, "has JSON of about " + std::to_string(values) + " values",
+         "expected at most " + std::to_string(document.limits.max_json_values));
+  }
 }
 
 json parse_json(const Document& document, Bytes text) {
   if (std::all_of(text.begin(), text.end(), [](std::uint8_t c) { return c <= ' '; })) {
     fail(document.path, "holds no JSON", "expected a glTF 2.0 file");
   }
-  check_depth(document, text);
+  check_shape(document, text);
   try {
     return json::parse(text.begin(), text.end());
   } catch (const json::exception& e) {

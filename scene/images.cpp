@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "raster/srgb.h"
+#include "scene/images_exr.h"
 #include "scene/images_png.h"
 
 namespace shoal {
@@ -64,8 +65,11 @@ const char* reader_name(Format format) {
 
 // libjpeg fills what is missing with grey and succeeds: the segments are walked to the end marker first.
 // Source: ITU-T T.81, annex B.
-bool jpeg_has_end(Encoded bytes) {
+//   scans  receives how many there are: each of a progressive JPEG is a pass over the whole picture, in as little as 12
+//          bytes
+bool jpeg_has_end(Encoded bytes, int& scans) {
   std::size_t at = 2;
+  scans = 0;
   while (at + 1 < bytes.size()) {
     if (bytes[at] != 0xFF) return false;
     const int marker = bytes[at + 1];
@@ -79,6 +83,7 @@ bool jpeg_has_end(Encoded bytes) {
     if (at + 2 > bytes.size()) return false;
     at += static_cast<std::size_t>(bytes[at]) << 8 | bytes[at + 1];
     if (marker != 0xDA) continue;
+    ++scans;
     // Coded data: up to a marker that is neither a stuffed zero nor a restart.
     const auto is_data = [&](int next) { return next == 0 || (next >= 0xD0 && next <= 0xD7); };
     while (at + 1 < bytes.size() && (bytes[at] != 0xFF || is_data(bytes[at + 1]))) ++at;
@@ -86,13 +91,23 @@ bool jpeg_has_end(Encoded bytes) {
   return false;
 }
 
+void check_jpeg(Encoded bytes, const std::string& name) {
+  constexpr int kMaxScans = 100;
+  int scans = 0;
+  if (!jpeg_has_end(bytes, scans)) fail(name, "is cut short or damaged", "expected a whole JPEG");
+  if (scans > kMaxScans) {
+    fail(name, "has " + std::to_string(scans) + " scans", "expected at most " + std::to_string(kMaxScans));
+  }
+}
+
 struct Reader {
-  Reader(Encoded bytes, const std::string& name_in)
+  Reader(Encoded bytes, const std::string& name_in, const ImageLimits& limits)
       : name(name_in),
         format(format_of(bytes, name)),
         png(format == Format::kPng ? png_pixels_only(bytes, name) : std::vector<std::uint8_t>()),
         memory(png.empty() ? bytes.data() : png.data(), png.empty() ? bytes.size() : png.size()) {
-    if (format == Format::kJpeg && !jpeg_has_end(bytes)) fail(name, "is cut short or damaged", "expected a whole JPEG");
+    if (format == Format::kJpeg) check_jpeg(bytes, name);
+    if (format == Format::kExr) check_exr_header(bytes, name, limits);
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
     input = OIIO::ImageInput::create(reader_name(format));
@@ -142,9 +157,26 @@ ChannelMap channel_map(const OIIO::ImageSpec& spec, int channels) {
 template <class T>
 std::vector<T> read_channels(Reader& reader, int channels, OIIO::TypeDesc type) {
   const OIIO::ImageSpec& spec = reader.spec();
-  const std::size_t texels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-  std::vector<T> values(texels * static_cast<std::size_t>(channels));
-  if (!reader.input->read_image(0, 0, 0, channels, type, values.data())) {
+  const std::size_t row = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(channels);
+  const std::size_t all = row * static_cast<std::size_t>(spec.height);
+  std::vector<T> values;
+  values.reserve(all);
+  bool ok = true;
+  if (spec.tile_width != 0) {
+    values.resize(all);
+    ok = reader.input->read_image(0, 0, 0, channels, type, values.data());
+  } else {
+    // Band after band: a small file that promises a large image touches little memory before it turns out.
+    constexpr int kBand = 256;  // rows, a multiple of those in a chunk of any compression of OpenEXR
+    for (int y = 0; ok && y < spec.height; y += kBand) {
+      const int rows = std::min(kBand, spec.height - y);
+      const std::size_t first = values.size();
+      values.resize(first + static_cast<std::size_t>(rows) * row);
+      const int y0 = spec.y + y;
+      ok = reader.input->read_scanlines(0, 0, y0, y0 + rows, 0, 0, channels, type, &values[first]);
+    }
+  }
+  if (!ok) {
     fail(reader.name, "cannot be decoded (" + on_one_line(reader.input->geterror()) + ")", "expected a whole image");
   }
   return values;
@@ -189,11 +221,11 @@ void write_or_fail(std::unique_ptr<OIIO::ImageOutput> out, const OIIO::ImageSpec
 }  // namespace
 
 ImageSize image_size(Encoded encoded, const std::string& name, const ImageLimits& limits) {
-  return checked_size(Reader(encoded, name), limits);
+  return checked_size(Reader(encoded, name, limits), limits);
 }
 
 Texture decode_texture(Encoded encoded, const std::string& name, bool srgb, const ImageLimits& limits) {
-  Reader reader(encoded, name);
+  Reader reader(encoded, name, limits);
   const ImageSize size = checked_size(reader, limits);
   const int channels = std::min(reader.spec().nchannels, 4);
   const ChannelMap map = channel_map(reader.spec(), channels);

@@ -51,6 +51,17 @@ void check_header(Bytes data, const std::string& name) {
   if (!ok || data[10] != 0 || data[11] != 0 || data[12] > 1) fail(name, "has a header with invalid fields");
 }
 
+// Deflate makes at most 258 bytes of two bits: a header that promises more than that lies.
+void check_promise(Bytes header, std::size_t data_bytes, const std::string& name) {
+  constexpr double kMostOfAByte = 258.0 * 8 / 2;
+  constexpr int kChannels[] = {1, 0, 3, 1, 2, 0, 4};
+  const double texels = static_cast<double>(read_u32(header, 0)) * read_u32(header, 4);
+  if (texels * kChannels[header[9]] * header[8] / 8 > kMostOfAByte * static_cast<double>(data_bytes)) {
+    fail(name, "is cut short (its " + std::to_string(data_bytes) + " bytes of data cannot hold " +
+                   std::to_string(read_u32(header, 0)) + " x " + std::to_string(read_u32(header, 4)) + " texels)");
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> png_pixels_only(Bytes file, const std::string& name) {
@@ -59,7 +70,8 @@ std::vector<std::uint8_t> png_pixels_only(Bytes file, const std::string& name) {
   std::vector<std::uint8_t> kept;
   kept.reserve(file.size());
   kept.assign(file.data(), file.data() + kSignature);
-  bool any_data = false;
+  std::size_t data_bytes = 0;
+  bool has_palette = false;
   for (std::size_t at = kSignature; file.size() - at >= 12;) {
     const std::size_t length = read_u32(file, at);
     if (length > file.size() - at - 12) break;
@@ -75,9 +87,14 @@ std::vector<std::uint8_t> png_pixels_only(Bytes file, const std::string& name) {
     if (critical && !known) fail(name, "has a critical chunk that is not known");
     const Bytes chunk = file.subspan(at, length + 12);
     if (known || is(type, "tRNS")) kept.insert(kept.end(), chunk.begin(), chunk.end());
-    any_data = any_data || is(type, "IDAT");
+    has_palette = has_palette || is(type, "PLTE");
+    if (is(type, "IDAT")) {
+      if (file[kSignature + 8 + 9] == 3 && !has_palette) fail(name, "has no palette before its pixels");
+      data_bytes += length;
+    }
     if (is(type, "IEND")) {
-      if (!any_data) fail(name, "holds no pixels");
+      if (data_bytes == 0) fail(name, "holds no pixels");
+      check_promise(file.subspan(kSignature + 8, 13), data_bytes, name);
       return kept;
     }
     at += length + 12;

@@ -13,9 +13,9 @@ WideI first_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferentia
 
 // Which of the points are in the sun's shadow, by rays towards it; under a plane of water along the refracted way to
 // the plane, then on in the air.
-//   position, normal  world; unit, towards the sun's side
-//   water             the body that the points lie in, or null
-WideM sun_blocked(const FrameData& f, const WaterPass* water, Vec3<WideF> position, Vec3<WideF> normal, WideM lanes);
+//   position, facet  world; of the triangle, unit, either side
+//   water            the body that the points lie in, or null
+WideM sun_blocked(const FrameData& f, const WaterPass* water, Vec3<WideF> position, Vec3<WideF> facet, WideM lanes);
 
 // Adds to the frame's counts, from any thread.
 void count_rays(const FrameData& f, RayCounts::Kind kind, std::uint64_t rays);

@@ -36,6 +36,8 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
   return text;
 }
 
+}  // namespace
+
 void append_png_chunk(std::vector<std::uint8_t>& file, const char* type, const std::vector<std::uint8_t>& data) {
   append_u32_be(file, static_cast<std::uint32_t>(data.size()));
   const std::size_t start = file.size();
@@ -48,8 +50,6 @@ void append_png_chunk(std::vector<std::uint8_t>& file, const char* type, const s
   }
   append_u32_be(file, ~crc);
 }
-
-}  // namespace
 
 TemporaryFolder::TemporaryFolder() {
   std::string pattern = (std::filesystem::temp_directory_path() / "shoal-test-XXXXXX").string();

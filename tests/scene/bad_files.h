@@ -55,6 +55,9 @@ CraftedFile good_file();
 std::vector<std::uint8_t> png(std::uint32_t width, std::uint32_t height, int color_type, int depth,
                               const std::vector<std::uint8_t>& rows);
 
+// Appends a chunk of a PNG, checksum and all.
+void append_png_chunk(std::vector<std::uint8_t>& file, const char* type, const std::vector<std::uint8_t>& data);
+
 struct BadFile {
   std::string path;
   std::string says;  // a part of the message

@@ -31,6 +31,14 @@ TEST_CASE("images: PNG of each kind becomes RGBA, alpha not multiplied in", "[im
   CHECK(decoded(png(1, 1, 4, 8, {77, 5})) == Bytes{77, 77, 77, 5});
 }
 
+TEST_CASE("images: a PNG's gamma is not read", "[images]") {
+  const Bytes plain = png(2, 1, 0, 8, {77, 200});
+  Bytes file(plain.begin(), plain.begin() + 33);
+  append_png_chunk(file, "gAMA", {0, 1, 0x86, 0xA0});  // 1.0
+  file.insert(file.end(), plain.begin() + 33, plain.end());
+  CHECK(decoded(file) == decoded(plain));
+}
+
 TEST_CASE("images: sixteen bits are rounded to the nearest of eight", "[images]") {
   // 257 v is exactly v of 8 bits; 128 more is still nearer to v than to v + 1, 129 is not.
   for (const int v : {0, 1, 77, 127, 254}) {
