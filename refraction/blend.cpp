@@ -50,7 +50,7 @@ void blend_water(FrameData& f, const FrameKernels& kernels, const MethodKernels&
                  ThreadPool& pool, StageClock& clock) {
   if (!f.blended.any()) return;
   blend_water_pass(f, kernels, method, water, pool);
-  if (mirrors_scene(water.optics)) blend_water_pass(f, kernels, method, mirrored_pass(water), pool);
+  if (water.mirrors) blend_water_pass(f, kernels, method, mirrored_pass(water), pool);
   clock.lap("blended.water");
 }
 

@@ -105,7 +105,8 @@ struct WaterPass {
   Plane keep;              // world clip plane: what the pass draws
   Frustum frustum;         // of the region's bounds
   PassSettings pass;
-  bool mirrors = false;  // the surface shows the scene on the eye's own side, not the background alone
+  bool mirrored = false;  // this is the mirrored pass of the two
+  bool mirrors = false;   // the surface shows the scene on the eye's own side, not the background alone
 };
 
 // Does the surface mirror the scene on the side that a ray comes from, whatever --reflections says? It does from within

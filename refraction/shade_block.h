@@ -119,7 +119,7 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
   }
   if (f.blended.any()) {
     lay_over(f.blended.refracted, block, through, refracted, nullptr);
-    if (mirrors_scene(water.optics)) lay_over(f.blended.mirrored, block, lanes, reflected, nullptr);
+    if (water.mirrors) lay_over(f.blended.mirrored, block, lanes, reflected, nullptr);
   }
   const Vec3<WideF> mixed = refracted * (WideF(1.0f) - at.reflectance) + reflected * at.reflectance;
   out.radiance = select<WideF>(lanes, mixed, out.radiance);

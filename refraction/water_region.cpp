@@ -109,6 +109,7 @@ bool find_region(FrameData& f, const FrameKernels& kernels, WaterPass& water, Th
 
 WaterPass mirrored_pass(const WaterPass& refracted) {
   WaterPass w = refracted;
+  w.mirrored = true;
   // The eye's side of the plane is what it mirrors.
   const Vec3f normal = -w.optics.far_normal;
   w.keep = {normal, kOverlap_m - dot(normal, w.optics.plane_origin)};

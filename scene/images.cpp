@@ -265,7 +265,7 @@ Texture load_texture(const std::string& path, bool srgb, const ImageLimits& limi
 }
 
 LinearImage decode_linear(Encoded encoded, const std::string& name, const ImageLimits& limits) {
-  Reader reader(encoded, name);
+  Reader reader(encoded, name, limits);
   const ImageSize size = checked_size(reader, limits);
   const int channels = std::min(reader.spec().nchannels, 4);
   const ChannelMap map = channel_map(reader.spec(), channels);
