@@ -105,7 +105,7 @@ TEST_CASE("environment: white balls in a uniform picture cannot be seen") {
 }
 
 TEST_CASE("environment: rays that leave see it, above the water, mirrored in it and through it") {
-  // Red above the horizon, green below; the water stands upright in the right half of the view.
+  // Red above the horizon, green below.
   EquirectImage image{64, 32, {}};
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 64; ++x) {
@@ -113,7 +113,7 @@ TEST_CASE("environment: rays that leave see it, above the water, mirrored in it 
     }
   }
   Scene scene = scene_with(surroundings(image));
-  // Looked at from above at 45 degrees: a level pond in the lower half of the view.
+  // A pond to the horizon, the eye a metre above it and looking level: the lower half of the view.
   scene.nodes[0].world_from_local = {{{1, 0, 0, 0}, {0, 1, 0, 1}, {0, 0, 1, 6}, {0, 0, 0, 1}}};
   WaterSpec spec;
   spec.has_size = spec.has_depth = true;

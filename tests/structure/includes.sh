@@ -19,7 +19,7 @@ declare -A sees=(
   [refraction]="core raster water scene refraction" [compare]="core raster water scene refraction compare"
   [app]="core raster water scene refraction compare app"
 )
-file_reader='^scene/(gltf|images|export_glb)[a-z_]*\.(h|cpp)$'
+file_reader='^scene/(gltf|images|export_glb|environment)[a-z_]*\.(h|cpp)$'
 status=0 seen=0
 complain() { echo "$*"; status=1; }
 
