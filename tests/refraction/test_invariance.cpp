@@ -46,10 +46,10 @@ void check_settings(const char* name, int width_px, int height_px, int spp, int 
     const std::vector<Digests> expected = render_all(scene, settings, {Isa::kScalar, 1, 64});
     std::vector<How> ways;
     for (const Isa isa : supported_isas()) {
-      // The best set in full where a frame is one sample, all others along the diagonals.
+      // The best set in full where a frame is one plain sample, all others along the diagonals.
       for (const int tile : {16, 32, 64, 128, 256})
         for (const int threads : {1, 2, 7})
-          if ((spp == 1 && isa == supported_isas().front()) || (tile / 16 + threads) % 3 == 0)
+          if ((spp == 1 && anisotropy == 1 && isa == supported_isas().front()) || (tile / 16 + threads) % 3 == 0)
             ways.push_back({isa, threads, tile});
     }
     for (const How& how : ways) {
@@ -75,7 +75,7 @@ TEST_CASE("invariance: box, one sample") { check_settings("box", 131, 77, 1); }
 TEST_CASE("invariance: box, four samples") { check_settings("box", 67, 131, 4); }
 TEST_CASE("invariance: pool, one sample") { check_settings("pool", 131, 77, 1); }
 TEST_CASE("invariance: pool, four samples") { check_settings("pool", 97, 65, 4); }
-TEST_CASE("invariance: pool, anisotropic textures") { check_settings("pool", 131, 77, 1, 8); }
+TEST_CASE("invariance: pool, anisotropic textures") { check_settings("pool", 97, 65, 1, 8); }
 TEST_CASE("invariance: frames smaller than a block") { check_settings("box", 3, 2, 1); }
 
 TEST_CASE("invariance: a digest sees the camera, the method and the size") {
