@@ -47,8 +47,12 @@ struct Canvas {
   }
 };
 
-// Returns the x after the text; what does not fit before x_end is left out.
-int write_text(Canvas& canvas, int x, int y, int x_end, const std::string& text, const std::uint8_t* rgb) {
+int width_of(const std::string& text) {
+  return static_cast<int>(text.size()) * (shoal::test::kGlyphWidth + 1) * kScale;
+}
+
+// What does not fit before x_end is left out.
+void write_text(Canvas& canvas, int x, int y, int x_end, const std::string& text, const std::uint8_t* rgb) {
   for (const char character : text) {
     if (x + shoal::test::kGlyphWidth * kScale > x_end) break;
     const shoal::test::Glyph& glyph = shoal::test::glyph_of(character);
@@ -60,7 +64,6 @@ int write_text(Canvas& canvas, int x, int y, int x_end, const std::string& text,
     }
     x += (shoal::test::kGlyphWidth + 1) * kScale;
   }
-  return x;
 }
 
 // Mean of the pixels that a target pixel covers, over the frame's grey where they are transparent. Code values are
@@ -134,8 +137,9 @@ void compose(const std::string& out, int columns, int width, int height) {
     const int x = kMargin + static_cast<int>(i) % columns * cell_width;
     const int y = kMargin + static_cast<int>(i) / columns * cell_height;
     const int x_end = x + 2 * width;
-    const int after = write_text(canvas, x, y, x_end, std::to_string(i + 1) + " " + cells[i].label + "  ", kInk);
-    write_text(canvas, after, y, x_end, cells[i].note, kNoteInk);
+    const int note_x = x_end - width_of(cells[i].note);
+    write_text(canvas, x, y, note_x, std::to_string(i + 1) + " " + cells[i].label, kInk);
+    write_text(canvas, note_x, y, x_end, cells[i].note, kNoteInk);
     place_picture(canvas, x, y + kLine, width, height, cells[i].picture);
     place_picture(canvas, x + width, y + kLine, width, height, cells[i].reference);
   }
