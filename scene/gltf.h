@@ -16,13 +16,12 @@ struct LoadLimits {
   int max_json_depth = 64;
   std::uint32_t max_nodes = 1u << 20;
   int max_node_depth = 1024;
-  std::uint64_t max_triangles = std::uint64_t{1} << 26;  // drawn: a mesh counts once for each node that has it
-  std::uint64_t max_scene_bytes = std::uint64_t{8}
-                                  << 30;              // of decoded meshes and textures, and of what is drawn of them
-  std::uint32_t max_unbacked_elements = 1u << 24;     // of an accessor that has no bytes in the file (zeros)
-  int max_texture_size = 16384;                       // texels, width and height
-  std::uint64_t max_texels = std::uint64_t{1} << 28;  // of one image
-  float max_coordinate_m = 1e12f;                     // of any vertex, in its mesh and in the world
+  std::uint64_t max_triangles = std::uint64_t{1} << 26;    // drawn: a mesh counts once for each node that has it
+  std::uint64_t max_scene_bytes = std::uint64_t{8} << 30;  // of decoded textures and meshes, and of these as drawn
+  std::uint32_t max_unbacked_elements = 1u << 24;          // of an accessor that has no bytes in the file (zeros)
+  int max_texture_size = 16384;                            // texels, width and height
+  std::uint64_t max_texels = std::uint64_t{1} << 28;       // of one image
+  float max_coordinate_m = 1e12f;                          // of any vertex, in its mesh and in the world
   // false: buffers and images lie in the scene's folder or below it, symbolic links resolved.
   bool allow_external = false;
 };

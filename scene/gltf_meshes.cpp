@@ -253,8 +253,8 @@ MeshPrimitive read_primitive(Document& document, const tinygltf::Primitive& prim
   if (color.present) check_count(document, color, count, "COLOR_0", label);
 
   MeshPrimitive mesh;
+  read_positions(document, position, label, mesh);  // first: what has no bytes has a limit of elements
   mesh.indices = read_corners(document, primitive, count, label);
-  read_positions(document, position, label, mesh);
   if (normal.present) read_normals(document, normal, label, mesh);
   mesh.uvs = read_uvs(document, primitive, uv_source.sets.empty() ? 0 : uv_source.sets[0], count, label);
   if (uv_source.sets.size() > 1) mesh.uvs1 = read_uvs(document, primitive, uv_source.sets[1], count, label);

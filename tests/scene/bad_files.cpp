@@ -277,7 +277,7 @@ std::vector<Recipe> range_recipes() {
       {"counts_differ", "expected 3", [](CraftedFile& f) { f.root["accessors"][1]["count"] = 2; }},
       {"two_corners", "multiple of three", [](CraftedFile& f) { f.root["accessors"][3]["count"] = 2; }},
       {"mode", "mode is 7", [](CraftedFile& f) { f.root["meshes"][0]["primitives"][0]["mode"] = 7; }},
-      {"zeros_without_end", "memory limit",
+      {"zeros_without_end", "elements and no bufferView",
        [](CraftedFile& f) {
          f.root["accessors"][0] = {{"componentType", 5126}, {"type", "VEC3"}, {"count", 4200000000u}};
          f.root["meshes"][0]["primitives"][0] = {{"attributes", {{"POSITION", 0}}}};
