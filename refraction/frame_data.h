@@ -99,11 +99,11 @@ struct Blended {
 struct WaterPass {
   const WaterBody* body = nullptr;
   const WaterSurface* surface = nullptr;  // at this time; null where it is flat
-  std::int32_t index = 0;  // of the body
-  BroadPhase optics;       // the body's plane with its true index
-  BroadPhase map;          // the map that geometry is drawn with: the method's choice
-  Plane keep;              // world clip plane: what the pass draws
-  Frustum frustum;         // of the region's bounds
+  std::int32_t index = 0;                 // of the body
+  BroadPhase optics;                      // the body's plane with its true index
+  BroadPhase map;                         // the map that geometry is drawn with: the method's choice
+  Plane keep;                             // world clip plane: what the pass draws
+  Frustum frustum;                        // of the region's bounds
   PassSettings pass;
   bool mirrored = false;  // this is the mirrored pass of the two
   bool mirrors = false;   // the surface shows the scene on the eye's own side, not the background alone
@@ -139,7 +139,7 @@ struct FrameData {
   // This frame.
   double time_s = 0;
   std::vector<WaterSurface> surfaces;  // of the bodies, at this time
-  View view;  // of this sample
+  View view;                           // of this sample
   Frustum frustum;
   PassSettings direct_pass;
   int sample = 0, sample_count = 1;

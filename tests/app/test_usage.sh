@@ -59,11 +59,11 @@ refused_isa=$(for isa in scalar sse4.2 avx2 avx512 neon; do "$shoal" list isas |
 [ -z "$refused_isa" ] || r "--isa '$refused_isa': this machine cannot run it" --isa "$refused_isa"
 r "--anisotropy" --anisotropy 0
 r "--anisotropy" --anisotropy 17
-r "--shadows 'rays': has not come yet" --shadows rays
+r "--shadows 'dark': unknown; expected one of: off, map, rays" --shadows dark
 r "--shadows 'on': unknown; expected one of: off, map" --shadows on
 r "--shadow-map '1000': not a power of two; expected 256, 512, 1024, 2048, 4096 or 8192" --shadow-map 1000
 r "--shadow-map '16384'" --shadow-map 16384
-r "--reflections 'scene': has not come yet" --reflections scene
+r "--reflections 'all': unknown; expected one of: environment, scene" --reflections all
 r "--reflections 'none': unknown" --reflections none
 r "--tonemap 'filmic': unknown; expected one of: none, aces" --tonemap filmic
 r "--background" --background 1,2
