@@ -95,6 +95,23 @@ struct Blended {
   bool any() const { return !chunks.empty(); }
 };
 
+// The grid of the refracted and the mirrored layer: the frame's, or, where waves bend rays out of the frame, with a
+// margin all round. Margins are whole regions, so a frame's block is a block of the layer.
+struct LayerGrid {
+  FrameGrid grid;
+  BinGrid tiles, regions;
+  int margin_px = 0;
+  std::size_t offset(int x_px, int y_px) const {  // of the block at a pixel of the frame
+    return grid.block_offset((x_px + margin_px) >> 2, (y_px + margin_px) >> 2);
+  }
+  std::size_t region(const FrameGrid& frame, std::size_t of_frame) const {
+    const std::size_t margin = static_cast<std::size_t>(margin_px / kRegionSize),
+                      across = static_cast<std::size_t>(frame.regions_x);
+    return (of_frame / across + margin) * static_cast<std::size_t>(grid.regions_x) + of_frame % across + margin;
+  }
+};
+inline constexpr int kWaveMargin_px = 128;
+
 // One warped pass over the scene for a body of water: refracted, or mirrored.
 struct WaterPass {
   const WaterBody* body = nullptr;
@@ -128,6 +145,7 @@ struct FrameData {
   FrameSettings settings;
   FrameGrid grid;
   BinGrid bin_grid;
+  LayerGrid layers;
   GeometryView geometry;
   GeometryView water_geometry;                     // the outlines of the bodies of water
   SunShadows shadows;                              // of the sun, which stands still as the scene does
@@ -152,8 +170,9 @@ struct FrameData {
   PassBins water_bins;
   Blended blended;
   VisibilityBuffer direct, refracted, mirrored;
-  std::vector<std::uint8_t> region_of_body;  // [regions] this pass's region, 64-pixel cells
-  std::vector<std::uint8_t> tile_active;     // [tiles] tiles that the region touches
+  std::vector<std::uint8_t> region_of_body;  // [regions] 64-pixel cells that show this pass's body, or touch such
+  std::vector<std::uint8_t> layer_regions;   // [layers' regions] that are drawn
+  std::vector<std::uint8_t> tile_active;     // [layers' tiles] that those touch
   std::vector<WaterPass> water;              // one a body, whether it shows or not
   HitBuffers hits;
   HitPoints hit_points;
