@@ -8,6 +8,7 @@
 #include "app/messages.h"
 #include "core/error.h"
 #include "scene/gltf.h"
+#include "water/surface_keys.h"
 
 namespace shoal::app {
 namespace {
@@ -53,7 +54,8 @@ void override_water(const WaterOverrides& overrides, WaterSpec& water) {
   }
   if (overrides.ior) water.ior = *overrides.ior;
   if (overrides.absorption_per_m) water.absorption = *overrides.absorption_per_m;
-  if (overrides.surface) water.surface.kind = *overrides.surface;
+  if (overrides.surface) set_surface_kinds(water.surface, *overrides.surface);
+  for (const auto& change : overrides.surface_changes) change(water.surface);
   if (overrides.geometry) water.surface.geometry = *overrides.geometry;
 }
 
