@@ -67,7 +67,7 @@ SHOAL_INLINE F intersect_surface(const WaterSurface& surface, Vec3<F> origin, Ve
   hi = select(active, t, hi);
   found = found | active;
   if (none(found)) return F(kInfinity);
-  const auto zero_between = [&] SHOAL_LAMBDA {
+  const auto zero_between = [&]() SHOAL_LAMBDA {
     const F fall = gap_lo - gap_hi;
     return lo + (hi - lo) * select(fall == F(0.0f), F(0.5f), gap_lo / select(fall == F(0.0f), F(1.0f), fall));
   };
