@@ -11,7 +11,7 @@ namespace shoal::app {
 
 struct DiffArguments {
   std::string a, b;
-  std::optional<std::string> json, mask, map, ppd;
+  std::optional<std::string> json, mask, map, flip_map, ppd;
   bool quiet = false;
 };
 

@@ -90,6 +90,8 @@ void add_diff_options(CLI::App& command, DiffArguments& diff) {
   add_text_option(command, "--mask", diff.mask, "only pixels that are not black in it (not 0 in its water.mask)",
                   "FILE");
   add_text_option(command, "--map", diff.map, "write the absolute differences", "FILE.png|FILE.exr");
+  add_text_option(command, "--flip-map", diff.flip_map, "write FLIP's error: in colours, or as it is",
+                  "FILE.png|FILE.exr");
   add_text_option(command, "--ppd", diff.ppd, "pixels a degree, for FLIP; 67.02", "N");
   command.add_flag("--quiet", diff.quiet, "no text, only the exit code");
 }
