@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/compare_options.h"
 #include "app/options.h"
 
 namespace shoal::app {
@@ -21,6 +22,7 @@ struct ProbeArguments {
 };
 
 int run_render(const RawOptions& raw);
+int run_compare(const CompareArguments& arguments);
 int run_diff(const DiffArguments& arguments);
 int run_probe(const ProbeArguments& arguments);
 int run_scene(const RawOptions& raw);

@@ -26,6 +26,9 @@ Json json_hex(const std::vector<float>& values);
 // Indented text with a line break at its end. Text that is no UTF-8 is repaired.
 std::string json_text(const Json& json);
 
+// What this program was compiled with.
+std::string compiler_name();
+
 // What a run of frames took.
 struct RunTimes {
   std::vector<double> frames_ms;
