@@ -10,11 +10,18 @@ namespace shoal {
 
 namespace {
 
-constexpr double kWidth = 480, kHeight = 300, kLeft = 62, kRight = 470, kTop = 10, kBottom = 252;
+constexpr double kWidth = 480, kHeight = 300, kLeft = 62, kRight = 458, kTop = 10, kBottom = 252;
 
 std::string px(double v) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", v);
+  return text;
+}
+
+// Ticks are round numbers: no zeros at the end.
+std::string tick_text(double v) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", v);
   return text;
 }
 
@@ -95,12 +102,12 @@ class Drawing {
     const ChartAxis &x = chart_.x, &y = chart_.y;
     for (const double v : axis_ticks(y.low, y.high, y.log, 6)) {
       rule(kLeft, y_of(v), kRight, y_of(v), "grid");
-      text(kLeft - 6, y_of(v) + 4, "end", short_number(v));
+      text(kLeft - 6, y_of(v) + 4, "end", tick_text(v));
     }
     if (x.names.empty()) {
       for (const double v : axis_ticks(x.low, x.high, x.log, 7)) {
         rule(x_of(v), kTop, x_of(v), kBottom, "grid");
-        text(x_of(v), kBottom + 16, "middle", short_number(v));
+        text(x_of(v), kBottom + 16, "middle", tick_text(v));
       }
     }
     for (std::size_t i = 0; i < x.names.size(); ++i) {
@@ -164,12 +171,14 @@ std::vector<double> axis_ticks(double low, double high, bool log, int most) {
     ticks.clear();
   }
   double step = std::pow(10.0, std::floor(std::log10((high - low) / most)));
-  for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
+  for (const double factor : {1.0, 2.0, 5.0, 10.0, 20.0}) {
     if ((high - low) / (step * factor) > most - 1) continue;
     step *= factor;
     break;
   }
-  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) ticks.push_back(k * step);
+  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) {
+    ticks.push_back(k * step);
+  }
   return ticks;
 }
 

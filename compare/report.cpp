@@ -65,11 +65,13 @@ std::string table(const Report& report) {
     out += "<tr><td>" + code(method.name) + "</td>";
     for (const Column& c : list) {
       const double own = c.value(method);
-      const bool best = std::isfinite(own) && report.methods.size() > 1 &&
-                        std::none_of(report.methods.begin(), report.methods.end(), [&](const ReportMethod& other) {
-                          const double v = c.value(other);
-                          return c.more_is_better ? v > own : v < own;
-                        });
+      const auto any_other = [&](bool better) {
+        return std::any_of(report.methods.begin(), report.methods.end(), [&](const ReportMethod& other) {
+          const double v = c.value(other);
+          return better == c.more_is_better ? v > own : v < own;
+        });
+      };
+      const bool best = any_other(false) && !any_other(true);  // better than some, and none is better
       out += std::string("<td") + (best ? " class=\"best\"" : "") + ">" + cell_text(c, method) + "</td>";
     }
     out += "</tr>\n";
