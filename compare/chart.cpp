@@ -10,7 +10,8 @@ namespace shoal {
 
 namespace {
 
-constexpr double kWidth = 480, kHeight = 300, kLeft = 62, kRight = 458, kTop = 10, kBottom = 252;
+// The drawing is 480 by 300 of its units; this part of it holds the values.
+constexpr double kHeight = 300, kLeft = 62, kRight = 458, kTop = 10, kBottom = 252;
 
 std::string px(double v) {
   char text[32];
@@ -177,7 +178,7 @@ std::vector<double> axis_ticks(double low, double high, bool log, int most) {
     break;
   }
   for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) {
-    ticks.push_back(k * step);
+    ticks.push_back(k * step + 0.0);  // no -0
   }
   return ticks;
 }

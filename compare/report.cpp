@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 
 #include "compare/chart.h"
@@ -172,6 +173,11 @@ std::string slider(const Report& report) {
 }
 
 std::string legends() {
+  const auto plain = [](double v) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", v);
+    return std::string(text);
+  };
   const auto box = [](Rgb8 c) {
     return "<i class=\"box\" style=\"background: rgb(" + std::to_string(c.r) + " " + std::to_string(c.g) + " " +
            std::to_string(c.b) + ")\"></i> ";
@@ -179,7 +185,7 @@ std::string legends() {
   return "<div class=\"grid\"><div><h3>FLIP maps</h3><div class=\"scale\"></div><p class=\"ends\"><span>0: no "
          "difference</span><span>1: the greatest</span></p></div>\n<div><h3>Hit error maps</h3><div "
          "class=\"scale\"></div><p class=\"ends\"><span>" +
-         short_number(kHitScaleLow_px) + " px and less</span><span>1 px</span><span>" + short_number(kHitScaleHigh_px) +
+         plain(kHitScaleLow_px) + " px and less</span><span>1 px</span><span>" + plain(kHitScaleHigh_px) +
          " px and more</span></p><p class=\"soft\">" + box(kWrongKindColor) +
          "shows something of another kind (sky, a mirror image, nothing) &nbsp; " + box(kSameKindColor) +
          "both show sky or a mirror image &nbsp; " + box(kNoWaterColor) + "no water</p></div></div>\n";
@@ -189,7 +195,7 @@ std::string gallery(const Report& report) {
   std::string out =
       "<h2>Pictures and error maps</h2>\n" + legends() + "<h3>" + code(report.reference.name) +
       " (reference)</h3>\n<p class=\"soft\">" + html_escape(report.reference.description) +
-      "</p>\n<div class=\"grid\"><figure>" +
+      "</p>\n<div class=\"grid one\"><figure>" +
       image(report, "reference", report.reference.name + ", the reference", report.reference.picture_png) +
       "<figcaption>Picture</figcaption></figure></div>\n";
   for (const ReportMethod& m : report.methods) {

@@ -69,6 +69,7 @@ TEST_CASE("chart: ticks are round and few", "[report]") {
   CHECK(axis_ticks(0, 1, false, 6) == std::vector<double>{0, 0.2, 0.2 * 2, 0.2 * 3, 0.2 * 4, 1});
   CHECK(axis_ticks(0.01, 100, true, 6).size() == 5);
   CHECK(axis_ticks(0.01, 100, true, 6).front() == Approx(0.01));
+  CHECK(!std::signbit(axis_ticks(0, 1, false, 6).front()));
   for (double span = 0.001; span < 1e5; span *= 1.37) {
     for (const double low : {0.0, 0.3 * span, -span}) {
       const std::size_t n = axis_ticks(low, low + span, false, 6).size();
