@@ -53,8 +53,15 @@ void add_set_option(CLI::App& command, RawOptions& raw) {
 using AddOption =
     std::function<void(const char* name, std::optional<std::string>& value, const char* type, const char* help)>;
 
+AddOption adder(CLI::App& command) {
+  return [&command](const char* name, std::optional<std::string>& value, const char* type, const char* help) {
+    add_text_option(command, name, value, help, type);
+  };
+}
+
 // What a frame is, for every command that draws one.
-void add_picture_options(const AddOption& add, RawOptions& raw) {
+void add_picture_options(CLI::App& command, RawOptions& raw) {
+  const AddOption add = adder(command);
   add("--size", raw.size, "WxH", "pixels, each side 1 to 16384; 1280x720");
   add("--spp", raw.spp, "N", "samples a pixel, 1 to 256; 1 is the pixel's centre");
   add("--camera", raw.camera, "NAME|INDEX", "the first in node order");
@@ -74,18 +81,12 @@ void add_picture_options(const AddOption& add, RawOptions& raw) {
       "the scene's environment (the default sky where it has none); the scene's");
 }
 
-AddOption adder(CLI::App& command) {
-  return [&command](const char* name, std::optional<std::string>& value, const char* type, const char* help) {
-    add_text_option(command, name, value, help, type);
-  };
-}
-
 void add_frame_options(CLI::App& command, RawOptions& raw) {
   const AddOption add = adder(command);
   add("--method", raw.method, "NAME", "how water is refracted (shoal list methods); two-phase");
   add("--methods", raw.methods, "A,B", "of shoal compare");
   add("--reference", raw.reference, "NAME", "of shoal compare");
-  add_picture_options(add, raw);
+  add_picture_options(command, raw);
   add("--frames", raw.frames, "A:B", "frames A to B, both included, into -o frame.%04d.png");
   add("--warmup", raw.warmup, "N", "uncounted frames before repeated ones; 3");
   add("--repeat", raw.repeat, "N",
@@ -102,7 +103,7 @@ void add_compare_options(CLI::App& command, CompareArguments& compare) {
   add("-o", raw.output, "DIR", "the folder: report.html, metrics.json, pictures; made where there is none");
   add("--methods", raw.methods, "A,B", "all but the reference (shoal list methods)");
   add("--reference", raw.reference, "NAME", "what is taken as the truth; ray-traced, until it has come two-phase");
-  add_picture_options(add, raw);
+  add_picture_options(command, raw);
   add("--warmup", raw.warmup, "N", "uncounted frames before repeated ones; 3");
   add("--repeat", raw.repeat, "N",
       "time N frames of each method, frame k seen by the camera turned k x 0.1 degree left; 5");
