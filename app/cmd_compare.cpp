@@ -102,15 +102,16 @@ Json method_json(const ReportMethod& method) {
 }
 
 // Of all methods: what they share, then each one's own as METHOD.KEY.
-Json shared_settings(const CompareOptions& options, const RenderScene& scene, const PlacedCamera& camera, int threads) {
-  Json settings = settings_json(options.reference, scene, camera, threads);
+Json shared_settings(const CompareOptions& options, const LoadedScene& loaded, const PlacedCamera& camera,
+                     int threads) {
+  Json settings = settings_json(options.reference, loaded, camera, threads);
   settings.erase("method");
   settings.erase("frames");
   settings["ppd"] = json_float(options.pixels_per_degree);
   settings["yee"] = options.yee;
   for (const Options& method : options.methods) {
     const std::string prefix = method.frame.method + ".";
-    const Json own = settings_json(method, scene, camera, threads);
+    const Json own = settings_json(method, loaded, camera, threads);
     for (const auto& item : own.items()) {
       if (item.key().rfind(prefix, 0) == 0) settings[item.key()] = item.value();
     }
@@ -249,7 +250,7 @@ class Compare {
   // metrics.json and, last, the report.
   void write_numbers(OutputFolder& folder) {
     const FrameSettings& frame = options_.reference.frame;
-    const Json settings = shared_settings(options_, loaded_.render, *camera_, threads_);
+    const Json settings = shared_settings(options_, loaded_, *camera_, threads_);
     Json json = Json::object();
     json["scene"] = options_.reference.scene.name;
     json["size"] = {frame.width_px, frame.height_px};

@@ -140,8 +140,9 @@ Json water_json(const WaterBody& body) {
   return json;
 }
 
-Json settings_json(const Options& options, const RenderScene& scene, const PlacedCamera& camera, int threads) {
+Json settings_json(const Options& options, const LoadedScene& loaded, const PlacedCamera& camera, int threads) {
   const FrameSettings& frame = options.frame;
+  const RenderScene& scene = loaded.render;
   Json s = Json::object();
   s["method"] = frame.method;
   add_method_options(frame, s);
@@ -188,7 +189,7 @@ Json render_report(const Options& options, const LoadedScene& loaded, const Plac
   r["tile"] = frame.tile_px;
   r["isa"] = isa_name(frame.isa);
   r["spp"] = frame.spp;
-  r["settings"] = settings_json(options, loaded.render, camera, threads);
+  r["settings"] = settings_json(options, loaded, camera, threads);
   r["version"] = SHOAL_VERSION;
   r["compiler"] = compiler_name();
   r["load_ms"] = json_ms(times.load_ms);

@@ -44,7 +44,7 @@ Json render_report(const Options& options, const LoadedScene& loaded, const Plac
                    const Frame& first_frame, const RunTimes& times);
 
 // Every option and water key in force.
-Json settings_json(const Options& options, const RenderScene& scene, const PlacedCamera& camera, int threads);
+Json settings_json(const Options& options, const LoadedScene& loaded, const PlacedCamera& camera, int threads);
 
 // One body's water keys.
 Json water_json(const WaterBody& body);
