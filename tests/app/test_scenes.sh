@@ -9,11 +9,11 @@ field() { perl -MJSON::PP -e 'local $/; my $v = JSON::PP->new->canonical->decode
 
 # --- info
 passes "info" "$shoal" info box
-equals "info names its facts" "scene nodes meshes primitives triangles vertices materials textures lights skins animations cameras water bounds warnings" \
+equals "info names its facts" "scene nodes meshes primitives triangles vertices materials textures lights environment skins animations cameras water bounds warnings" \
   "$(grep -oE '^[a-z]+' .out | paste -sd ' ')"
 exits "info --json" 0 "$shoal" info box --json
 cp .out box.json
-equals "info --json's keys" "scene nodes meshes primitives triangles vertices materials textures lights skins animations cameras water bounds warnings" \
+equals "info --json's keys" "scene nodes meshes primitives triangles vertices materials textures lights environment skins animations cameras water bounds warnings" \
   "$(keys_of box.json)"
 passes "info --json FILE" "$shoal" info box --json file.json
 equals "the same" "same" "$(cmp file.json box.json && echo same)"

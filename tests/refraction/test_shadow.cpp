@@ -108,6 +108,7 @@ FrameSettings settings_of(Shadows shadows) {
   s.height_px = 120;
   s.isa = supported_isas().front();
   s.threads = 2;
+  s.reflections = Reflections::kEnvironment;  // a shadow must not be seen twice in a pixel
   s.shadows = shadows;
   s.shadow_map_px = 2048;
   s.keep_linear = true;
