@@ -3,8 +3,7 @@
 //
 // Source  Whitted 1980; Li et al., Sec. 4 (recursive tracing of Perlin water).
 // Differs Texture filtering follows ray differentials (Igehy 1999) as the raster methods do, not cones. A ray beyond
-// the
-//         depth or below the weight sees the background, so that a white scene stays white.
+//         the depth or below the weight sees the background, so that a white scene stays white.
 // Error   Which triangle is met is Embree's answer (robust mode); the point on it is our own arithmetic (resolve.h).
 #include <atomic>
 
@@ -31,6 +30,7 @@ struct Path {
   Ray<WideF> ray;
   RayDifferential<WideF> differential;
   Vec3<WideF> weight;  // of what they bring
+  WideF clear;         // what blended triangles on the way let through, beside that
   WideM lanes;
   float t_near = 0;              // in the direction's lengths
   int level = 1;                 // 1: from the eye
@@ -96,6 +96,20 @@ class Tracer {
     const WideM wet = path.lanes & !hit & (water.body >= WideI(0));
     const WideM gone = path.lanes & !hit & !wet;
     if (path.level == 1) capture_visible(path, id, water, hit, wet);
+    if (f.blended.any()) {
+      Path behind = path;
+      const SeenThrough over = see_through(behind, id, water, hit, wet);
+      end(behind, id, water, hit, gone, wet);
+      if (path.level == 1)
+        out.covered = select(path.lanes, WideF(1.0f) - over.keep * (WideF(1.0f) - out.covered), out.covered);
+      return;
+    }
+    end(path, id, water, hit, gone, wet);
+  }
+
+ private:
+  // What the rays end at.
+  void end(const Path& path, WideI id, const WaterMet& water, WideM hit, WideM gone, WideM wet) {
     if (any(hit)) surface(path, id, hit);
     if (any(gone)) background(path, gone);
     if (none(wet)) return;
@@ -107,7 +121,18 @@ class Tracer {
     });
   }
 
- private:
+  // Adds the light of what is blended on the way, which dims what comes from behind.
+  SeenThrough see_through(Path& path, WideI id, const WaterMet& water, WideM hit, WideM wet) {
+    WideF t = select(wet, water.t, WideF(kEndless));
+    if (any(hit)) t = select(hit, triangle_distance(f.geometry, path.ray, id, hit), t);
+    const WideI what = select(hit, id, select(wet, WideI(kFirstWaterId) + water.body, WideI(kNoId)));
+    const SeenThrough over =
+        seen_through(f, path.ray, path.differential, path.t_near, t, what, medium_of(path), path.lanes);
+    add(path.weight * path.clear, over.light, path.lanes);
+    path.clear = path.clear * over.keep;
+    return over;
+  }
+
   const WaterPass* medium_of(const Path& path) const {
     return path.medium == kAir ? nullptr : &f.water[static_cast<std::size_t>(path.medium)];
   }
@@ -122,7 +147,7 @@ class Tracer {
     Vec3<WideF> weight = path.weight;
     if (medium != nullptr)
       weight = weight * absorbed(*medium->body, max(s.t * length(path.ray.direction_world), WideF(0.0f)));
-    add(weight, s.radiance, hit);
+    add(weight * path.clear, s.radiance, hit);
     if (path.level == 1) {
       out.covered = select(hit, WideF(1.0f), out.covered);
       if (f.capture) shade_detail::capture_surface(f, block, s.surface, hit);
@@ -146,7 +171,7 @@ class Tracer {
           path.level == 1 ? WideF(shade_detail::kFarAway_m) : WideF(medium->body->depth_m) / max(descent, WideF(1e-3f));
       weight = weight * absorbed(*medium->body, path_m);
     }
-    add(weight, background_radiance<WideF>(f.scene->lighting.background, direction), gone);
+    add(weight * path.clear, background_radiance<WideF>(f.scene->lighting.background, direction), gone);
   }
 
   // One side of one body's surface.
@@ -157,6 +182,7 @@ class Tracer {
     const RayDifferential<WideF> crossing = at_crossing(path.ray, path.differential, at);
     Path next;
     next.weight = path.weight;
+    next.clear = path.clear;
     if (const WaterPass* medium = medium_of(path))
       next.weight = next.weight * absorbed(*medium->body, max(at.t * length(path.ray.direction_world), WideF(0.0f)));
     next.level = path.level + 1;
@@ -195,13 +221,16 @@ class Tracer {
   // Follows rays from a surface, or has them see the background: those that may not see the scene, are too deep, or
   // bring too little.
   void follow_on(Path& next, RayCounts::Kind kind, bool sees_scene) {
-    const WideF brings = max(max(next.weight.x, next.weight.y), next.weight.z);
+    // The pixel's hit buffers are those of the water and what is in it, however much of that is seen.
+    const WideF brings =
+        max(max(next.weight.x, next.weight.y), next.weight.z) * select(next.shows, WideF(1.0f), next.clear);
     const bool too_deep = static_cast<float>(next.level) > f.method_option[kDepth];
     WideM on = next.lanes & (brings >= WideF(f.method_option[kWeight]));
     if (too_deep || !sees_scene) on = mask_from_bits(0);
     const WideM cut = next.lanes & !on;
     if (any(cut))
-      add(next.weight, background_radiance<WideF>(f.scene->lighting.background, next.ray.direction_world), cut);
+      add(next.weight * next.clear, background_radiance<WideF>(f.scene->lighting.background, next.ray.direction_world),
+          cut);
     if (none(on)) return;
     next.lanes = on;
     count_rays(f, kind, static_cast<std::uint64_t>(__builtin_popcount(to_bits(on))));
@@ -252,6 +281,7 @@ void trace_region(FrameData& f, std::size_t region) {
     path.ray = block_rays(f.view, block);
     path.differential = pixel_ray_differential<WideF>(f.view);
     path.weight = broadcast<WideF>(Vec3f{1, 1, 1});
+    path.clear = WideF(1.0f);
     path.lanes = block.in_frame;
     path.t_near = f.view.camera.near_m;
     path.medium = f.eye_in_water;
@@ -268,7 +298,9 @@ BroadPhase flat_map(const WaterBody& body, const View& view) { return make_broad
 }  // namespace
 
 Method ray_traced() {
-  MethodKernels kernels{&flat_map, nullptr, nullptr, nullptr, &trace_region};
+  MethodKernels kernels{};
+  kernels.map = &flat_map;
+  kernels.trace = &trace_region;
   return {"ray-traced",
           "the truth: recursive reflection and refraction, by Embree",
           "Whitted 1980; Li et al.; Liu et al. 2020, reference [6]",
