@@ -4,7 +4,7 @@
 #include <atomic>
 #include <vector>
 
-#include "refraction/narrow/exact_ray.h"
+#include "refraction/narrow/displaced_ray.h"
 
 namespace shoal {
 
@@ -20,9 +20,11 @@ bool inside_triangle(Vec3f p, Vec3f a, Vec3f b, Vec3f c, Vec3f normal) {
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
-bool contains(const WaterBody& body, Vec3f p) {
-  const float height = dot(p - body.origin, body.normal);
-  if (!(height < 0.0f && height > -body.depth_m)) return false;
+//   surface  null: flat
+bool contains(const WaterBody& body, const WaterSurface* surface, Vec3f p) {
+  const Vec3f at = on_body<float>(body, p);
+  const float top = is_displaced(body, surface) ? surface_at<float>(*surface, at.x, at.z).height_m : 0.0f;
+  if (!(at.y < top && at.y > -body.depth_m)) return false;
   for (std::size_t i = 0; i + 2 < body.outline.size(); i += 3)
     if (inside_triangle(p, body.outline[i], body.outline[i + 1], body.outline[i + 2], body.normal)) return true;
   return false;
@@ -45,7 +47,7 @@ void place_water(FrameData& f, const MethodKernels& method) {
     const WaterSide side = eye_side(w.optics);
     w.mirrors = f.settings.reflections == Reflections::kScene || always_mirrors(w.optics.eye_below, side.eta);
     w.keep = {w.map.far_normal, kOverlap_m - dot(w.map.far_normal, w.map.plane_origin)};
-    if (f.eye_in_water < 0 && contains(bodies[b], f.view.camera.position_world)) f.eye_in_water = w.index;
+    if (f.eye_in_water < 0 && contains(bodies[b], w.surface, f.view.camera.position_world)) f.eye_in_water = w.index;
   }
 }
 

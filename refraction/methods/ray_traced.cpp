@@ -1,6 +1,9 @@
 // ray-traced: the truth. Every pixel's ray is followed through the water, by reflection, refraction and total internal
 // reflection, and lit as the rasterizer lights it: the same triangles, attributes, textures and shading function.
 //
+// Water is its plane, with the waves' normals bent to what a plane can bear, or, displaced, the height field itself:
+// rays may meet it again and again, from both sides.
+//
 // Source  Whitted 1980; Li et al., Sec. 4 (recursive tracing of Perlin water).
 // Differs Texture filtering follows ray differentials (Igehy 1999) as the raster methods do, not cones. A ray beyond
 //         the depth or below the weight sees the background, so that a white scene stays white.
@@ -8,6 +11,7 @@
 #include <atomic>
 
 #include "refraction/methods/method.h"
+#include "refraction/narrow/displaced_ray.h"
 #include "refraction/trace/trace_rays.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
@@ -35,7 +39,8 @@ struct Path {
   float t_near = 0;              // in the direction's lengths
   int level = 1;                 // 1: from the eye
   std::int32_t medium = kAir;    // the body of water that they are in
-  std::int32_t from = kNowhere;  // the flat body that they start on: they do not meet it again
+  std::int32_t from = kNowhere;  // the body that they start on: if its surface is a plane they do not meet it again
+  Vec3<WideF> lift;              // to where they start on that one's side, if it is displaced
   // Of the water pixels' hit buffers, at the pixel's centre: what these lanes meet is what the pixel shows.
   WideM shows;
   HitKind shown_as = HitKind::kSurface;
@@ -65,11 +70,24 @@ SHOAL_INLINE WideM in_outline(const WaterBody& body, Vec3<WideF> p) {
   return inside;
 }
 
+__attribute__((noinline)) WideF meet_waves(const Path& path, const WaterPass& water) {
+  Ray<WideF> ray = path.ray;
+  if (water.index == path.from) ray.origin_world = ray.origin_world + path.lift;
+  return meet_displaced(*water.body, *water.surface, ray, WideF(path.t_near), path.lanes);
+}
+
 SHOAL_INLINE WaterMet nearest_water(const FrameData& f, const Path& path) {
   WaterMet met{WideF(kEndless), WideI(kNowhere)};
   for (const WaterPass& water : f.water) {
-    if (water.index == path.from) continue;
     const WaterBody& body = *water.body;
+    if (is_displaced(body, water.surface)) {
+      const WideF t = meet_waves(path, water);
+      const WideM nearer = path.lanes & (t < met.t);
+      met.t = select(nearer, t, met.t);
+      met.body = select(nearer, WideI(water.index), met.body);
+      continue;
+    }
+    if (water.index == path.from) continue;
     const Vec3<WideF> normal = broadcast<WideF>(body.normal);
     const WideF approach = dot(path.ray.direction_world, normal);
     const WideF height = dot(broadcast<WideF>(body.origin) - path.ray.origin_world, normal);
@@ -114,10 +132,14 @@ class Tracer {
     if (any(gone)) background(path, gone);
     if (none(wet)) return;
     for_each_distinct(water.body, wet, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
-      const WaterBody& body = f.scene->waters[static_cast<std::size_t>(one)];
-      const WideM below = dot(path.ray.direction_world, broadcast<WideF>(body.normal)) > WideF(0.0f);
-      if (any(lanes & !below)) interface(path, one, false, lanes & !below);
-      if (any(lanes & below)) interface(path, one, true, lanes & below);
+      const WaterPass& pass = f.water[static_cast<std::size_t>(one)];
+      Vec3<WideF> normal = broadcast<WideF>(pass.body->normal);
+      if (is_displaced(*pass.body, pass.surface))
+        normal =
+            displaced_normal(*pass.body, *pass.surface, path.ray.origin_world + path.ray.direction_world * water.t);
+      const WideM below = dot(path.ray.direction_world, normal) > WideF(0.0f);
+      if (any(lanes & !below)) interface(path, one, water.t, false, lanes & !below);
+      if (any(lanes & below)) interface(path, one, water.t, true, lanes & below);
     });
   }
 
@@ -175,10 +197,11 @@ class Tracer {
   }
 
   // One side of one body's surface.
-  void interface(const Path& path, std::int32_t index, bool from_below, WideM lanes) {
+  void interface(const Path& path, std::int32_t index, WideF t, bool from_below, WideM lanes) {
     const WaterPass& water = f.water[static_cast<std::size_t>(index)];
     const WaterSide side = water_side(*water.body, water.surface, from_below);
-    const ExactRay<WideF> at = exact_ray(side, path.ray);
+    const bool displaced = is_displaced(*water.body, water.surface);
+    const ExactRay<WideF> at = displaced ? displaced_ray(side, path.ray, t) : exact_ray(side, path.ray);
     const RayDifferential<WideF> crossing = at_crossing(path.ray, path.differential, at);
     Path next;
     next.weight = path.weight;
@@ -195,8 +218,11 @@ class Tracer {
     }
 
     const Vec3<WideF> weight = next.weight;
+    const Vec3<WideF> lift = displaced ? at.normal * surface_lift(*water.body, *water.surface, at.crossing_world)
+                                       : broadcast<WideF>(Vec3f{0, 0, 0});
     if (f.method_option[kRefraction] != 0.0f) {
       next.ray = {at.crossing_world, at.refracted};
+      next.lift = -lift;
       next.differential = refracted_differential(crossing, at);
       next.weight = weight * (WideF(1.0f) - at.reflectance);
       next.lanes = lanes & at.transmitted;
@@ -207,6 +233,7 @@ class Tracer {
     }
     if (f.method_option[kReflection] != 0.0f) {
       next.ray = {at.crossing_world, at.reflected};
+      next.lift = lift;
       next.differential = reflected_differential(crossing, at);
       next.weight = weight * at.reflectance;
       next.lanes = lanes & (at.reflectance > WideF(0.0f));
@@ -282,6 +309,7 @@ void trace_region(FrameData& f, std::size_t region) {
     path.differential = pixel_ray_differential<WideF>(f.view);
     path.weight = broadcast<WideF>(Vec3f{1, 1, 1});
     path.clear = WideF(1.0f);
+    path.lift = broadcast<WideF>(Vec3f{0, 0, 0});
     path.lanes = block.in_frame;
     path.t_near = f.view.camera.near_m;
     path.medium = f.eye_in_water;

@@ -58,6 +58,18 @@ SHOAL_INLINE void bend_normal(const WaterSide& side, ExactRay<F>& out) {
   out.normal = valid_normal<F>(out.incident, out.plane_normal, from_above ? up : -up, out.eta);
 }
 
+// From a ray that meets the surface with a normal (incident, normal, eta) to the rays that go on, and their shares.
+template <class F>
+SHOAL_INLINE void go_on_from(ExactRay<F>& out) {
+  out.cos_incident = clamp(-dot(out.incident, out.normal), F(0.0f), F(1.0f));
+  const Refraction<F> refraction = refract(out.incident, out.normal, out.eta);
+  out.refracted = refraction.direction;
+  out.cos_transmitted = refraction.cos_transmitted;
+  out.transmitted = refraction.valid;
+  out.reflected = reflect(out.incident, out.normal);
+  out.reflectance = fresnel_dielectric(out.cos_incident, out.eta);
+}
+
 // Follows a ray to the plane of the water.
 //
 //   side  the plane, seen from where the ray comes from
@@ -82,13 +94,7 @@ SHOAL_INLINE ExactRay<F> exact_ray(const WaterSide& side, Ray<F> ray) {
   out.height_m = F(0.0f);
   out.eta = F(side.eta);
   if (side.surface != nullptr) bend_normal(side, out);
-  out.cos_incident = clamp(-dot(out.incident, out.normal), F(0.0f), F(1.0f));
-  const Refraction<F> refraction = refract(out.incident, out.normal, out.eta);
-  out.refracted = refraction.direction;
-  out.cos_transmitted = refraction.cos_transmitted;
-  out.transmitted = refraction.valid;
-  out.reflected = reflect(out.incident, out.normal);
-  out.reflectance = fresnel_dielectric(out.cos_incident, out.eta);
+  go_on_from(out);
   return out;
 }
 
