@@ -111,6 +111,13 @@ class RefractionOracle {
     return out;
   }
 
+  // Height of a body's waves over the plane at a point, and the unit normal there; after set_waves.
+  double surface_height(std::size_t body, Vec3d p) const {
+    const WaterBody& b = scene_.waters[body];
+    return surface_oracle::height(surfaces_[body], along(b, p, b.axis_x), along(b, p, b.axis_z));
+  }
+  Vec3d surface_up(std::size_t body, Vec3d p) const { return normal_at(scene_.waters[body], p).up; }
+
  private:
   struct Triangle {
     Vec3d p, e1, e2, n;

@@ -136,7 +136,7 @@ TEST_CASE("ray-traced: hit points under waves are those of rays in double", "[ra
     Frame frame;
     Renderer(scene, settings).render(placed.camera, 1.0, frame);
     int water = 0, agree = 0, bent = 0, again = 0;
-    double surface_off = 0, hit_off = 0;
+    double surface_off = 0, hit_off = 0, height_off = 0, normal_off = 0;
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
         const OraclePixel truth = oracle.trace(placed.camera, kWidth, kHeight, x + 0.5, y + 0.5);
@@ -154,6 +154,12 @@ TEST_CASE("ray-traced: hit points under waves are those of rays in double", "[ra
         const double off = norm_of(vector_in(image_of(frame, Aov::kPosition), i) - truth.position);
         if (moved && off > 0.01) continue;  // at a crest's edge
         surface_off = std::max(surface_off, off / crossing);
+        const Vec3d shown = vector_in(image_of(frame, Aov::kPosition), i);
+        height_off =
+            std::max(height_off, std::fabs(static_cast<double>(image_of(frame, Aov::kSurfaceHeight).floats[i]) -
+                                           oracle.surface_height(0, shown)));
+        normal_off = std::max(
+            normal_off, norm_of(vector_in(image_of(frame, Aov::kSurfaceNormal), i) - oracle.surface_up(0, shown)));
         if (image_of(frame, Aov::kHitId).uints[i] != truth.hit_id ||
             image_of(frame, Aov::kHitKind).uints[i] != static_cast<std::uint32_t>(truth.hit_kind))
           continue;
@@ -168,6 +174,8 @@ TEST_CASE("ray-traced: hit points under waves are those of rays in double", "[ra
     CHECK(water > 300);
     CHECK(agree > 0.99 * (water - again));
     CHECK(surface_off < 1);
+    CHECK(height_off < 2e-5 * height_bound);
+    CHECK(normal_off < 1e-5);
     CHECK(hit_off < 1);
   }
 }
