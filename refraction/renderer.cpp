@@ -47,15 +47,6 @@ void check_settings(const FrameSettings& s, const RenderScene& scene) {
   check(scene.waters.size() < static_cast<std::size_t>(kMaxWaterBodies), "the scene has too many bodies of water");
 }
 
-// The rasterizer's passes are made for planes of water.
-void check_water(const Method& method, const RenderScene& scene) {
-  if (method.kernels.trace != nullptr) return;
-  for (const WaterBody& body : scene.waters)
-    check(body.surface.kind == SurfaceKind::kFlat || body.surface.geometry == WaterGeometry::kNormals,
-          std::string("method ") + method.name +
-              " draws no displaced water; expected geometry=normals, or method ray-traced");
-}
-
 constexpr const char* kRayNames[RayCounts::kKinds] = {"primary", "reflected", "refracted", "shadow"};
 
 }  // namespace
@@ -87,7 +78,6 @@ struct Renderer::Impl {
         kernels(frame_kernels(settings.isa)),
         method(find_method(settings.method, settings.isa)),
         pool(settings.threads > 0 ? settings.threads : available_threads()) {
-    check_water(method, s);
     build_outlines();
     FrameData& f = frame;
     f.scene = &scene;

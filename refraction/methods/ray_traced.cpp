@@ -11,7 +11,7 @@
 #include <atomic>
 
 #include "refraction/methods/method.h"
-#include "refraction/narrow/displaced_ray.h"
+#include "refraction/narrow/displaced_surface.h"
 #include "refraction/trace/trace_rays.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
@@ -201,7 +201,8 @@ class Tracer {
     const WaterPass& water = f.water[static_cast<std::size_t>(index)];
     const WaterSide side = water_side(*water.body, water.surface, from_below);
     const bool displaced = is_displaced(*water.body, water.surface);
-    const ExactRay<WideF> at = displaced ? displaced_ray(side, path.ray, t) : exact_ray(side, path.ray);
+    const ExactRay<WideF> at =
+        displaced ? displaced_ray(*water.body, *water.surface, path.ray, t) : exact_ray(side, path.ray);
     const RayDifferential<WideF> crossing = at_crossing(path.ray, path.differential, at);
     Path next;
     next.weight = path.weight;

@@ -82,7 +82,6 @@ r "--set absorption" --set absorption=-1,0,0
 r "--set depth" --set depth=0
 r "--set size" --set size=3
 r "--set surface 'bumpy': unknown" --set surface=bumpy
-r "two-phase draws no displaced water; expected geometry=normals, or method ray-traced" --set geometry=displaced --set surface=perlin
 r "--set geometry 'flat': unknown; expected one of: normals, displaced" --set geometry=flat
 r "--set surface 'bumpy': unknown" --set surface=perlin+bumpy
 r "--set slope" --set slope=-0.1

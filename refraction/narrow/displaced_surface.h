@@ -1,7 +1,8 @@
-// One ray at the displaced surface of the water: the height field itself, inside of the body's outline.
+// The displaced surface of the water as rays meet it: the height field itself, inside of the body's outline.
 #pragma once
 
-#include "refraction/narrow/exact_ray.h"
+#include "raster/camera.h"
+#include "water/body.h"
 #include "water/intersect_surface.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
@@ -71,31 +72,6 @@ SHOAL_INLINE Vec3<F> displaced_normal(const WaterBody& body, const WaterSurface&
   const SurfacePoint<F> at = surface_at<F>(surface, p.x, p.z);
   return surface_normal<F>(broadcast<F>(body.axis_x), broadcast<F>(body.normal), broadcast<F>(body.axis_z), at.slope_x,
                            at.slope_z);
-}
-
-// A ray at a point where it meets the displaced surface; its true normal, not bent.
-//
-//   side  of the body, with its surface, on the ray's side of the water
-//   t     meet_displaced, finite in the lanes that count
-// Returns all of ExactRay, the surface's tangent plane for the plane. Where the ray meets the back of the side
-// (rounding, where it grazes) it counts as edge-on: all of it is reflected.
-template <class F>
-SHOAL_INLINE ExactRay<F> displaced_ray(const WaterSide& side, const Ray<F>& ray, F t) {
-  const WaterBody& body = *side.body;
-  ExactRay<F> out;
-  out.t = t;
-  out.crosses = t < F(3e38f);
-  out.crossing_world = ray.origin_world + ray.direction_world * t;
-  out.incident = normalize(ray.direction_world);
-  const Vec3<F> p = on_body(body, out.crossing_world);
-  const SurfacePoint<F> at = surface_at<F>(*side.surface, p.x, p.z);
-  const Vec3<F> up = surface_normal<F>(broadcast<F>(body.axis_x), broadcast<F>(body.normal), broadcast<F>(body.axis_z),
-                                       at.slope_x, at.slope_z);
-  out.normal = out.plane_normal = dot(side.normal, body.normal) > 0.0f ? up : -up;
-  out.height_m = at.height_m;
-  out.eta = F(side.eta);
-  go_on_from(out);
-  return out;
 }
 
 // How far along the surface's normal a ray must start that leaves a point of the surface, so that it starts on the side
