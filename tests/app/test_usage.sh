@@ -68,7 +68,7 @@ r "--tonemap 'filmic': unknown; expected one of: none, aces" --tonemap filmic
 r "--background" --background 1,2
 r "--background" --background 1,2,x
 r "--background" --background 1,-2,0
-r "--background 'sky.hdr': has not come yet" --background sky.hdr
+r "--background 'sky.hdr': is a file; expected --environment sky.hdr" --background sky.hdr
 r "--background" --background sky
 
 # --- --set
