@@ -92,8 +92,8 @@ bool set_water_key(WaterOverrides& water, const std::string& key, const std::str
     }
     water.surface = kinds;
   } else if (key == "geometry") {
-    read_choice(option, value, {"normals"}, {"displaced"});
-    water.geometry = WaterGeometry::kNormals;
+    const bool displaced = read_choice(option, value, {"normals", "displaced"}, {}) == 1;
+    water.geometry = displaced ? WaterGeometry::kDisplaced : WaterGeometry::kNormals;
   } else if (const SurfaceNumber* number = find_surface_number(key)) {
     const double v =
         number->whole

@@ -51,6 +51,21 @@ SHOAL_INLINE std::int32_t first_value(WideI value, WideM active) {
   return extract(value, __builtin_ctz(to_bits(active)));
 }
 
+// Where rays meet the planes of triangles, in their directions' lengths; -1 where they do not.
+__attribute__((noinline)) inline WideF triangle_distance(const GeometryView& g, const Ray<WideF>& ray, WideI id,
+                                                         WideM lanes) {
+  WideF t(-1.0f);
+  for_each_distinct(id, lanes, [&](std::int32_t one, WideM same) SHOAL_LAMBDA {
+    const Geometry::TriangleRecord& r = g.triangles[one];
+    const Vec3f a = g.vertices[r.vertex[0]].position_world;
+    const Vec3f e1 = g.vertices[r.vertex[1]].position_world - a, e2 = g.vertices[r.vertex[2]].position_world - a;
+    const TriangleHit<WideF> hit =
+        intersect_triangle(ray, broadcast<WideF>(a), broadcast<WideF>(e1), broadcast<WideF>(e2));
+    t = select(same & hit.valid, hit.t, t);
+  });
+  return t;
+}
+
 // Three corners of the triangle of every lane.
 struct TriangleLanes {
   Vec3<WideF> p0, e1, e2;

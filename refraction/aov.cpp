@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "raster/camera.h"
+#include "refraction/narrow/displaced_surface.h"
 
 namespace shoal {
 
@@ -46,6 +47,20 @@ class Planes {
   const AlignedArray<float>* plane_[3];
 };
 
+// The surface of a body over a point of it.
+struct Waves {
+  float height_m;
+  Vec3f normal;  // on the plane normal's side
+};
+Waves waves_at(const FrameData& f, const Pixel& p, Vec3f position_world) {
+  const WaterPass& water = f.water[static_cast<std::size_t>(p.id - kFirstWaterId)];
+  const WaterBody& body = *water.body;
+  if (water.surface == nullptr) return {0.0f, body.normal};
+  const Vec3f at = on_body<float>(body, position_world);
+  return {surface_at<float>(*water.surface, at.x, at.z).height_m,
+          displaced_normal<float>(body, *water.surface, position_world)};
+}
+
 Vec3f vector_at(const FrameData& f, Aov aov, const Pixel& p) {
   const AlignedArray<float>* g = f.gbuffer.plane;
   const HitPoints& h = f.hit_points;
@@ -61,10 +76,17 @@ Vec3f vector_at(const FrameData& f, Aov aov, const Pixel& p) {
     case Aov::kVirtual:
       return p.water() ? Planes(h.virtual_x, h.virtual_y, h.virtual_z).at(p.slot) : position.at(p.slot);
     case Aov::kSurfaceNormal:
-      return p.water() ? f.water[static_cast<std::size_t>(p.id - kFirstWaterId)].body->normal : Vec3f{0, 0, 0};
+      return p.water() ? waves_at(f, p, position.at(p.slot)).normal : Vec3f{0, 0, 0};
     default:
       return {0, 0, 0};
   }
+}
+
+float surface_height_m(const FrameData& f, const Pixel& p) {
+  if (!p.water()) return 0.0f;
+  const AlignedArray<float>* g = f.gbuffer.plane;
+  return waves_at(f, p, Planes(g[GBuffer::kPositionX], g[GBuffer::kPositionY], g[GBuffer::kPositionZ]).at(p.slot))
+      .height_m;
 }
 
 std::uint32_t uint_at(const FrameData& f, const RenderScene& scene, Aov aov, const Pixel& p) {
@@ -132,9 +154,9 @@ void copy_aovs(const FrameData& f, const RenderScene& scene, Frame& out) {
       });
     } else {
       image.floats.reserve(pixels);
-      // The surface is flat: its height over the plane is 0 wherever it shows.
-      for_each_pixel(f,
-                     [&](const Pixel& p) { image.floats.push_back(info.aov == Aov::kDepth ? depth_m(f, p) : 0.0f); });
+      for_each_pixel(f, [&](const Pixel& p) {
+        image.floats.push_back(info.aov == Aov::kDepth ? depth_m(f, p) : surface_height_m(f, p));
+      });
     }
     out.aovs.push_back(std::move(image));
   }

@@ -43,6 +43,10 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
     kernels.draw_tile(f, f.direct, kernels.direct_alpha, nullptr, &f.water_bins, tile);
   });
   clock.lap("direct.visibility");
+  if (any_displaced(f)) {
+    pool.for_each(regions, [&](std::size_t region, int) { kernels.displaced_water(f, region); });
+    clock.lap("water.surface");
+  }
   if (digests != nullptr) digests->direct(f), clock.skip();
 
   // 3 For each body of water that shows: what lies behind its surface, and which of it each pixel sees.

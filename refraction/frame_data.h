@@ -122,6 +122,7 @@ struct WaterPass {
   Plane keep;                             // world clip plane: what the pass draws
   Frustum frustum;                        // of the region's bounds
   PassSettings pass;
+  float near_m = 0;       // of the camera: displaced water that is nearer is not met
   bool mirrored = false;  // this is the mirrored pass of the two
   bool mirrors = false;   // the surface shows the scene on the eye's own side, not the background alone
 };

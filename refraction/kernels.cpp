@@ -3,6 +3,7 @@
 
 #include "raster/visibility.h"
 #include "refraction/kernels_blend.h"
+#include "refraction/kernels_displaced.h"
 #include "refraction/kernels_shadow.h"
 #include "refraction/pixel_stage.h"
 #include "refraction/water_programs.h"
@@ -25,8 +26,10 @@ void direct_front_end(FrameData& f, std::size_t item) {
 void water_front_end(FrameData& f) {
   const DirectProgram program{f.view, f.frustum};
   for (std::size_t body = 0; body + 1 < f.outline_first_chunk.size(); ++body) {
+    const std::uint32_t first = f.outline_first_chunk[body];
+    const bool displaced = is_displaced(*f.water[body].body, f.water[body].surface);  // kernels_displaced.cpp
     FrontEnd<DirectProgram>(f.water_geometry, program, f.direct_pass, f.water_bins.items[body])
-        .run(f.outline_first_chunk[body], f.outline_first_chunk[body + 1],
+        .run(first, displaced ? first : f.outline_first_chunk[body + 1],
              kFirstWaterId + static_cast<std::int32_t>(body));
   }
 }
@@ -75,11 +78,11 @@ std::uint32_t direct_alpha(const FrameData& f, const WaterPass*, std::int32_t id
                     cover);
 }
 
-// Where the mirrored ray meets it.
+// Where the mirrored ray meets it; the mirrored layer is what flat water shows, whatever its waves do.
 std::uint32_t mirrored_alpha(const FrameData& f, const WaterPass* water, std::int32_t id, int x_px, int y_px,
                              std::uint32_t cover) {
   const Ray<WideF> ray = block_rays(f.view, make_block(f.grid, x_px, y_px));
-  const ExactRay<WideF> hit = exact_ray(eye_side(*water), ray);
+  const ExactRay<WideF> hit = exact_ray(water->optics, ray);
   const RayDifferential<WideF> at = at_crossing(ray, pixel_ray_differential<WideF>(f.view), hit);
   return alpha_bits(f, {hit.crossing_world, hit.reflected}, reflected_differential(at, hit), id, cover);
 }
@@ -131,9 +134,9 @@ std::uint8_t water_in_region(const FrameData& f, std::int32_t body, std::size_t 
 }  // namespace
 
 FrameKernels make_frame_kernels() {
-  return {&direct_front_end, &water_front_end,  &refracted_front_end, &mirrored_front_end,
-          &draw_tile,        &direct_alpha,     &mirrored_alpha,      &water_in_region,
-          &shadow_front_end, &draw_shadow_tile, &blended_front_end,   &blend_direct_region};
+  return {&direct_front_end,  &water_front_end,     &refracted_front_end, &mirrored_front_end, &draw_tile,
+          &direct_alpha,      &mirrored_alpha,      &water_in_region,     &shadow_front_end,   &draw_shadow_tile,
+          &blended_front_end, &blend_direct_region, &displaced_region};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

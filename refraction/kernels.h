@@ -38,6 +38,8 @@ struct FrameKernels {
   void (*blended_front_end)(FrameData&, const WaterPass* water, std::size_t item);
   // Those bins over one region of the direct pass, into Blended::direct.
   void (*blend_direct)(FrameData&, std::size_t region, int thread);
+  // Displaced water over one region of the direct pass, where it is in front.
+  void (*displaced_water)(FrameData&, std::size_t region);
 };
 
 // What a method brings: its broad phase and its narrow phase (refraction/methods/method.h).

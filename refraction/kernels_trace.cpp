@@ -13,15 +13,6 @@ struct PacketContext {
   const RayDifferential<WideF>* differential;
 };
 
-void fill(RayPacket& packet, const Ray<WideF>& ray, float t_near, WideF t_far) {
-  ray.origin_world.x.store(packet.origin_x), ray.origin_world.y.store(packet.origin_y);
-  ray.origin_world.z.store(packet.origin_z);
-  ray.direction_world.x.store(packet.direction_x), ray.direction_world.y.store(packet.direction_y);
-  ray.direction_world.z.store(packet.direction_z);
-  WideF(t_near).store(packet.t_near);
-  t_far.store(packet.t_far);
-}
-
 std::uint32_t keep_hits(const void* context, const RayPacket& packet, const std::int32_t* id, std::uint32_t lanes) {
   const PacketContext& c = *static_cast<const PacketContext*>(context);
   const Ray<WideF> ray = {
@@ -45,7 +36,7 @@ std::uint32_t blocked(const FrameData& f, const Ray<WideF>& ray, WideF t_far, Wi
   const RayDifferential<WideF> differential = no_differential();
   const PacketContext context{&f, &differential};
   RayPacket packet;
-  fill(packet, ray, 0.0f, t_far);
+  fill_packet(packet, ray, 0.0f, t_far);
   packet.keep = &keep_hits, packet.context = &context;
   const std::uint32_t bits = to_bits(lanes);
   count_rays(f, RayCounts::kShadow, static_cast<std::uint64_t>(__builtin_popcount(bits)));
@@ -64,7 +55,7 @@ WideI first_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferentia
                  WideF t_far, WideM lanes) {
   const PacketContext context{&f, &differential};
   RayPacket packet;
-  fill(packet, ray, t_near, t_far);
+  fill_packet(packet, ray, t_near, t_far);
   packet.keep = &keep_hits, packet.context = &context;
   f.rays->first_hits(packet, to_bits(lanes));
   return WideI::load(packet.id);

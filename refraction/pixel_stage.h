@@ -44,7 +44,9 @@ SHOAL_INLINE Ray<WideF> block_rays(const View& view, const Block& block) {
 
 // The water as the eye's rays meet it, waves and all.
 SHOAL_INLINE WaterSide eye_side(const WaterPass& water) {
-  return water_side(*water.body, water.surface, water.optics.eye_below);
+  WaterSide side = water_side(*water.body, water.surface, water.optics.eye_below);
+  side.t_near = water.near_m;
+  return side;
 }
 
 // What a method's rays are at water: its refracted ray and, for all methods alike, the reflected one.

@@ -215,6 +215,7 @@ struct Renderer::Impl {
         sample(wanted);
         out.water_pixels = f.water_pixels;
         copy_aovs(f, scene, out);
+        f.ray_counts = RayCounts();
         clock.skip();
       }
       f.capture = false, f.accumulate = true;

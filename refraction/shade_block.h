@@ -152,7 +152,7 @@ SHOAL_INLINE void shade_block(FrameData& f, const Block& block, BlockColor& out)
       const WaterPass& pass = f.water[static_cast<std::size_t>(one - kFirstWaterId)];
       shade_water<M>(f, block, pass, ray, lanes, out);
       if (around_eye != nullptr) {
-        const ExactRay<WideF> at = exact_ray(pass.optics, ray);
+        const ExactRay<WideF> at = exact_ray(eye_side(pass), ray);
         eye_path_m = select(lanes, length(at.crossing_world - ray.origin_world), eye_path_m);
       }
     });

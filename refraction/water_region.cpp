@@ -13,6 +13,11 @@ namespace {
 // Geometry is clipped this far beyond the plane, so that no seam opens between direct and refracted edges.
 constexpr float kOverlap_m = 0.02f;
 
+// Between the plane and displaced waves there is geometry on either side.
+float overlap_m(const WaterPass& water) {
+  return kOverlap_m + (is_displaced(*water.body, water.surface) ? water.surface->height_bound_m : 0.0f);
+}
+
 // Seen along the normal, is p inside of the triangle (either orientation)?
 bool inside_triangle(Vec3f p, Vec3f a, Vec3f b, Vec3f c, Vec3f normal) {
   const float ab = dot(cross(b - a, p - a), normal), bc = dot(cross(c - b, p - b), normal),
@@ -20,12 +25,32 @@ bool inside_triangle(Vec3f p, Vec3f a, Vec3f b, Vec3f c, Vec3f normal) {
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
-bool contains(const WaterBody& body, Vec3f p) {
-  const float height = dot(p - body.origin, body.normal);
-  if (!(height < 0.0f && height > -body.depth_m)) return false;
+// Where a point is, by the surface as it is drawn.
+struct Place {
+  bool over_body;  // seen along the normal, inside of the outline
+  float above_m;   // the surface
+  float above_plane_m;
+};
+//   surface  null: flat
+Place place_of(const WaterBody& body, const WaterSurface* surface, Vec3f p) {
+  const Vec3f at = on_body<float>(body, p);
+  Place place{false, at.y, at.y};
   for (std::size_t i = 0; i + 2 < body.outline.size(); i += 3)
-    if (inside_triangle(p, body.outline[i], body.outline[i + 1], body.outline[i + 2], body.normal)) return true;
-  return false;
+    place.over_body =
+        place.over_body || inside_triangle(p, body.outline[i], body.outline[i + 1], body.outline[i + 2], body.normal);
+  if (is_displaced(body, surface)) place.above_m = at.y - surface_at<float>(*surface, at.x, at.z).height_m;
+  return place;
+}
+
+// The body whose plane the passes are drawn with. Where waves put the eye on the other side of their plane, the plane
+// is moved past the eye: the passes must be those of the side that it is on.
+WaterBody with_eye_on_its_side(const WaterBody& body, const Place& eye) {
+  constexpr float kPast_m = 0.01f;
+  WaterBody moved = body;
+  const bool below = eye.above_m < 0.0f;
+  if (eye.over_body && below != (eye.above_plane_m < 0.0f))
+    moved.origin = body.origin + body.normal * (eye.above_plane_m + (below ? kPast_m : -kPast_m));
+  return moved;
 }
 
 }  // namespace
@@ -40,13 +65,23 @@ void place_water(FrameData& f, const MethodKernels& method) {
     w.body = &bodies[b];
     w.index = static_cast<std::int32_t>(b);
     w.surface = bodies[b].surface.kind == SurfaceKind::kFlat ? nullptr : &f.surfaces[b];
-    w.optics = make_broad_phase(bodies[b], f.view);
-    w.map = method.map(bodies[b], f.view);
+    w.near_m = f.view.camera.near_m;
+    const Place eye = place_of(bodies[b], w.surface, f.view.camera.position_world);
+    const bool displaced = is_displaced(bodies[b], w.surface);
+    const WaterBody plane = displaced ? with_eye_on_its_side(bodies[b], eye) : WaterBody();
+    w.optics = make_broad_phase(displaced ? plane : bodies[b], f.view);
+    w.map = method.map(displaced ? plane : bodies[b], f.view);
     const WaterSide side = eye_side(w.optics);
     w.mirrors = f.settings.reflections == Reflections::kScene || always_mirrors(w.optics.eye_below, side.eta);
-    w.keep = {w.map.far_normal, kOverlap_m - dot(w.map.far_normal, w.map.plane_origin)};
-    if (f.eye_in_water < 0 && contains(bodies[b], f.view.camera.position_world)) f.eye_in_water = w.index;
+    w.keep = {w.map.far_normal, overlap_m(w) - dot(w.map.far_normal, w.map.plane_origin)};
+    const bool in_water = eye.over_body && eye.above_m < 0.0f && eye.above_plane_m > -bodies[b].depth_m;
+    if (f.eye_in_water < 0 && in_water) f.eye_in_water = w.index;
   }
+}
+
+bool any_displaced(const FrameData& f) {
+  return std::any_of(f.water.begin(), f.water.end(),
+                     [](const WaterPass& w) { return is_displaced(*w.body, w.surface); });
 }
 
 // What of the layers is drawn for a body that shows in these regions of the frame, first to last: those, or, where
@@ -143,7 +178,7 @@ WaterPass mirrored_pass(const WaterPass& refracted) {
   w.mirrored = true;
   // The eye's side of the plane is what it mirrors.
   const Vec3f normal = -w.optics.far_normal;
-  w.keep = {normal, kOverlap_m - dot(normal, w.optics.plane_origin)};
+  w.keep = {normal, overlap_m(w) - dot(normal, w.optics.plane_origin)};
   w.pass.flip_facing = true;
   return w;
 }

@@ -10,6 +10,9 @@ namespace shoal {
 // Sets f.water (one pass a body) and f.eye_in_water for this view.
 void place_water(FrameData& f, const MethodKernels& method);
 
+// Is there a body whose surface is displaced? After place_water.
+bool any_displaced(const FrameData& f);
+
 LayerGrid make_layer_grid(const FrameGrid& frame, int tile_px, int margin_px);
 
 // Sets f.region_of_body, f.layer_regions, f.tile_active and the pass's bounds to what the narrow phase can reach of

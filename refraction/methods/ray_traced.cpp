@@ -1,14 +1,17 @@
 // ray-traced: the truth. Every pixel's ray is followed through the water, by reflection, refraction and total internal
 // reflection, and lit as the rasterizer lights it: the same triangles, attributes, textures and shading function.
 //
+// Water is its plane, with the waves' normals bent to what a plane can bear, or, displaced, the height field itself:
+// rays may meet it again and again, from both sides.
+//
 // Source  Whitted 1980; Li et al., Sec. 4 (recursive tracing of Perlin water).
 // Differs Texture filtering follows ray differentials (Igehy 1999) as the raster methods do, not cones. A ray beyond
-// the
-//         depth or below the weight sees the background, so that a white scene stays white.
+//         the depth or below the weight sees the background, so that a white scene stays white.
 // Error   Which triangle is met is Embree's answer (robust mode); the point on it is our own arithmetic (resolve.h).
 #include <atomic>
 
 #include "refraction/methods/method.h"
+#include "refraction/narrow/displaced_surface.h"
 #include "refraction/trace/trace_rays.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
@@ -31,11 +34,13 @@ struct Path {
   Ray<WideF> ray;
   RayDifferential<WideF> differential;
   Vec3<WideF> weight;  // of what they bring
+  WideF clear;         // what blended triangles on the way let through, beside that
   WideM lanes;
   float t_near = 0;              // in the direction's lengths
   int level = 1;                 // 1: from the eye
   std::int32_t medium = kAir;    // the body of water that they are in
-  std::int32_t from = kNowhere;  // the flat body that they start on: they do not meet it again
+  std::int32_t from = kNowhere;  // the body that they start on: if its surface is a plane they do not meet it again
+  Vec3<WideF> lift;              // to where they start on that one's side, if it is displaced
   // Of the water pixels' hit buffers, at the pixel's centre: what these lanes meet is what the pixel shows.
   WideM shows;
   HitKind shown_as = HitKind::kSurface;
@@ -65,11 +70,24 @@ SHOAL_INLINE WideM in_outline(const WaterBody& body, Vec3<WideF> p) {
   return inside;
 }
 
+__attribute__((noinline)) WideF meet_waves(const Path& path, const WaterPass& water) {
+  Ray<WideF> ray = path.ray;
+  if (water.index == path.from) ray.origin_world = ray.origin_world + path.lift;
+  return meet_displaced(*water.body, *water.surface, ray, WideF(path.t_near), path.lanes);
+}
+
 SHOAL_INLINE WaterMet nearest_water(const FrameData& f, const Path& path) {
   WaterMet met{WideF(kEndless), WideI(kNowhere)};
   for (const WaterPass& water : f.water) {
-    if (water.index == path.from) continue;
     const WaterBody& body = *water.body;
+    if (is_displaced(body, water.surface)) {
+      const WideF t = meet_waves(path, water);
+      const WideM nearer = path.lanes & (t < met.t);
+      met.t = select(nearer, t, met.t);
+      met.body = select(nearer, WideI(water.index), met.body);
+      continue;
+    }
+    if (water.index == path.from) continue;
     const Vec3<WideF> normal = broadcast<WideF>(body.normal);
     const WideF approach = dot(path.ray.direction_world, normal);
     const WideF height = dot(broadcast<WideF>(body.origin) - path.ray.origin_world, normal);
@@ -96,18 +114,47 @@ class Tracer {
     const WideM wet = path.lanes & !hit & (water.body >= WideI(0));
     const WideM gone = path.lanes & !hit & !wet;
     if (path.level == 1) capture_visible(path, id, water, hit, wet);
+    if (f.blended.any()) {
+      Path behind = path;
+      const SeenThrough over = see_through(behind, id, water, hit, wet);
+      end(behind, id, water, hit, gone, wet);
+      if (path.level == 1)
+        out.covered = select(path.lanes, WideF(1.0f) - over.keep * (WideF(1.0f) - out.covered), out.covered);
+      return;
+    }
+    end(path, id, water, hit, gone, wet);
+  }
+
+ private:
+  // What the rays end at.
+  void end(const Path& path, WideI id, const WaterMet& water, WideM hit, WideM gone, WideM wet) {
     if (any(hit)) surface(path, id, hit);
     if (any(gone)) background(path, gone);
     if (none(wet)) return;
     for_each_distinct(water.body, wet, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
-      const WaterBody& body = f.scene->waters[static_cast<std::size_t>(one)];
-      const WideM below = dot(path.ray.direction_world, broadcast<WideF>(body.normal)) > WideF(0.0f);
-      if (any(lanes & !below)) interface(path, one, false, lanes & !below);
-      if (any(lanes & below)) interface(path, one, true, lanes & below);
+      const WaterPass& pass = f.water[static_cast<std::size_t>(one)];
+      Vec3<WideF> normal = broadcast<WideF>(pass.body->normal);
+      if (is_displaced(*pass.body, pass.surface))
+        normal =
+            displaced_normal(*pass.body, *pass.surface, path.ray.origin_world + path.ray.direction_world * water.t);
+      const WideM below = dot(path.ray.direction_world, normal) > WideF(0.0f);
+      if (any(lanes & !below)) interface(path, one, water.t, false, lanes & !below);
+      if (any(lanes & below)) interface(path, one, water.t, true, lanes & below);
     });
   }
 
- private:
+  // Adds the light of what is blended on the way, which dims what comes from behind.
+  SeenThrough see_through(Path& path, WideI id, const WaterMet& water, WideM hit, WideM wet) {
+    WideF t = select(wet, water.t, WideF(kEndless));
+    if (any(hit)) t = select(hit, triangle_distance(f.geometry, path.ray, id, hit), t);
+    const WideI what = select(hit, id, select(wet, WideI(kFirstWaterId) + water.body, WideI(kNoId)));
+    const SeenThrough over =
+        seen_through(f, path.ray, path.differential, path.t_near, t, what, medium_of(path), path.lanes);
+    add(path.weight * path.clear, over.light, path.lanes);
+    path.clear = path.clear * over.keep;
+    return over;
+  }
+
   const WaterPass* medium_of(const Path& path) const {
     return path.medium == kAir ? nullptr : &f.water[static_cast<std::size_t>(path.medium)];
   }
@@ -122,7 +169,7 @@ class Tracer {
     Vec3<WideF> weight = path.weight;
     if (medium != nullptr)
       weight = weight * absorbed(*medium->body, max(s.t * length(path.ray.direction_world), WideF(0.0f)));
-    add(weight, s.radiance, hit);
+    add(weight * path.clear, s.radiance, hit);
     if (path.level == 1) {
       out.covered = select(hit, WideF(1.0f), out.covered);
       if (f.capture) shade_detail::capture_surface(f, block, s.surface, hit);
@@ -146,17 +193,20 @@ class Tracer {
           path.level == 1 ? WideF(shade_detail::kFarAway_m) : WideF(medium->body->depth_m) / max(descent, WideF(1e-3f));
       weight = weight * absorbed(*medium->body, path_m);
     }
-    add(weight, background_radiance<WideF>(f.scene->lighting.background, direction), gone);
+    add(weight * path.clear, background_radiance<WideF>(f.scene->lighting.background, direction), gone);
   }
 
   // One side of one body's surface.
-  void interface(const Path& path, std::int32_t index, bool from_below, WideM lanes) {
+  void interface(const Path& path, std::int32_t index, WideF t, bool from_below, WideM lanes) {
     const WaterPass& water = f.water[static_cast<std::size_t>(index)];
     const WaterSide side = water_side(*water.body, water.surface, from_below);
-    const ExactRay<WideF> at = exact_ray(side, path.ray);
+    const bool displaced = is_displaced(*water.body, water.surface);
+    const ExactRay<WideF> at =
+        displaced ? displaced_ray(*water.body, *water.surface, path.ray, t) : exact_ray(side, path.ray);
     const RayDifferential<WideF> crossing = at_crossing(path.ray, path.differential, at);
     Path next;
     next.weight = path.weight;
+    next.clear = path.clear;
     if (const WaterPass* medium = medium_of(path))
       next.weight = next.weight * absorbed(*medium->body, max(at.t * length(path.ray.direction_world), WideF(0.0f)));
     next.level = path.level + 1;
@@ -169,8 +219,11 @@ class Tracer {
     }
 
     const Vec3<WideF> weight = next.weight;
+    const Vec3<WideF> lift = displaced ? at.normal * surface_lift(*water.body, *water.surface, at.crossing_world)
+                                       : broadcast<WideF>(Vec3f{0, 0, 0});
     if (f.method_option[kRefraction] != 0.0f) {
       next.ray = {at.crossing_world, at.refracted};
+      next.lift = -lift;
       next.differential = refracted_differential(crossing, at);
       next.weight = weight * (WideF(1.0f) - at.reflectance);
       next.lanes = lanes & at.transmitted;
@@ -181,6 +234,7 @@ class Tracer {
     }
     if (f.method_option[kReflection] != 0.0f) {
       next.ray = {at.crossing_world, at.reflected};
+      next.lift = lift;
       next.differential = reflected_differential(crossing, at);
       next.weight = weight * at.reflectance;
       next.lanes = lanes & (at.reflectance > WideF(0.0f));
@@ -195,13 +249,16 @@ class Tracer {
   // Follows rays from a surface, or has them see the background: those that may not see the scene, are too deep, or
   // bring too little.
   void follow_on(Path& next, RayCounts::Kind kind, bool sees_scene) {
-    const WideF brings = max(max(next.weight.x, next.weight.y), next.weight.z);
+    // The pixel's hit buffers are those of the water and what is in it, however much of that is seen.
+    const WideF brings =
+        max(max(next.weight.x, next.weight.y), next.weight.z) * select(next.shows, WideF(1.0f), next.clear);
     const bool too_deep = static_cast<float>(next.level) > f.method_option[kDepth];
     WideM on = next.lanes & (brings >= WideF(f.method_option[kWeight]));
     if (too_deep || !sees_scene) on = mask_from_bits(0);
     const WideM cut = next.lanes & !on;
     if (any(cut))
-      add(next.weight, background_radiance<WideF>(f.scene->lighting.background, next.ray.direction_world), cut);
+      add(next.weight * next.clear, background_radiance<WideF>(f.scene->lighting.background, next.ray.direction_world),
+          cut);
     if (none(on)) return;
     next.lanes = on;
     count_rays(f, kind, static_cast<std::uint64_t>(__builtin_popcount(to_bits(on))));
@@ -252,6 +309,8 @@ void trace_region(FrameData& f, std::size_t region) {
     path.ray = block_rays(f.view, block);
     path.differential = pixel_ray_differential<WideF>(f.view);
     path.weight = broadcast<WideF>(Vec3f{1, 1, 1});
+    path.clear = WideF(1.0f);
+    path.lift = broadcast<WideF>(Vec3f{0, 0, 0});
     path.lanes = block.in_frame;
     path.t_near = f.view.camera.near_m;
     path.medium = f.eye_in_water;

@@ -4,6 +4,7 @@
 
 #include "raster/ray_triangle.h"
 #include "refraction/broad/broad_phase.h"
+#include "refraction/narrow/displaced_surface.h"
 #include "water/optics.h"
 #include "water/surface.h"
 #include "water/valid_normal.h"
@@ -18,6 +19,7 @@ struct WaterSide {
   // Of moving water, whose normals the plane then has; null: flat.
   const WaterBody* body = nullptr;
   const WaterSurface* surface = nullptr;
+  float t_near = 0;  // displaced water is met from there on, in the ray's lengths
 };
 SHOAL_INLINE WaterSide eye_side(const BroadPhase& bp) {
   return {bp.plane_origin, -bp.far_normal, bp.eye_below ? bp.path.ior : 1.0f / bp.path.ior};
@@ -58,7 +60,49 @@ SHOAL_INLINE void bend_normal(const WaterSide& side, ExactRay<F>& out) {
   out.normal = valid_normal<F>(out.incident, out.plane_normal, from_above ? up : -up, out.eta);
 }
 
-// Follows a ray to the plane of the water.
+// From a ray that meets the surface with a normal (incident, normal, eta) to the rays that go on, and their shares.
+template <class F>
+SHOAL_INLINE void go_on_from(ExactRay<F>& out) {
+  out.cos_incident = clamp(-dot(out.incident, out.normal), F(0.0f), F(1.0f));
+  const Refraction<F> refraction = refract(out.incident, out.normal, out.eta);
+  out.refracted = refraction.direction;
+  out.cos_transmitted = refraction.cos_transmitted;
+  out.transmitted = refraction.valid;
+  out.reflected = reflect(out.incident, out.normal);
+  out.reflectance = fresnel_dielectric(out.cos_incident, out.eta);
+}
+
+// A ray at a point where it meets the displaced surface of a body, from the side that it meets; its true normal, not
+// bent.
+//
+//   t  meet_displaced; where infinite, the ray does not cross
+// Returns all of ExactRay, with the surface's tangent plane for the plane.
+template <class F>
+SHOAL_INLINE ExactRay<F> displaced_ray(const WaterBody& body, const WaterSurface& surface, const Ray<F>& ray, F t) {
+  ExactRay<F> out;
+  out.crosses = t < F(3e38f);
+  out.t = select(out.crosses, t, F(0.0f));
+  out.crossing_world = ray.origin_world + ray.direction_world * out.t;
+  out.incident = normalize(ray.direction_world);
+  const Vec3<F> p = on_body(body, out.crossing_world);
+  const SurfacePoint<F> at = surface_at<F>(surface, p.x, p.z);
+  const Vec3<F> up = surface_normal<F>(broadcast<F>(body.axis_x), broadcast<F>(body.normal), broadcast<F>(body.axis_z),
+                                       at.slope_x, at.slope_z);
+  const MaskOf<F> below = dot(ray.direction_world, up) > F(0.0f);
+  out.normal = out.plane_normal = select<F>(below, -up, up);
+  out.height_m = at.height_m;
+  out.eta = select(below, F(body.ior), F(1.0f / body.ior));
+  go_on_from(out);
+  return out;
+}
+// Out of line: it is long, and asked for in many places.
+template <class F>
+__attribute__((noinline)) inline ExactRay<F> displaced_ray(const WaterSide& side, const Ray<F>& ray) {
+  const F t = meet_displaced(*side.body, *side.surface, ray, F(side.t_near), F(0.0f) == F(0.0f));
+  return displaced_ray(*side.body, *side.surface, ray, t);
+}
+
+// Follows a ray to the plane of the water, or to its displaced surface.
 //
 //   side  the plane, seen from where the ray comes from
 //   ray   direction of any length but 0
@@ -68,6 +112,7 @@ SHOAL_INLINE void bend_normal(const WaterSide& side, ExactRay<F>& out) {
 //        (tests/refraction/test_exact_ray.cpp).
 template <class F>
 SHOAL_INLINE ExactRay<F> exact_ray(const WaterSide& side, Ray<F> ray) {
+  if (side.surface != nullptr && is_displaced(*side.body, side.surface)) return displaced_ray(side, ray);
   ExactRay<F> out;
   const Vec3<F> n = broadcast<F>(side.normal);
   const F height = dot(ray.origin_world - broadcast<F>(side.plane_origin), n);
@@ -82,13 +127,7 @@ SHOAL_INLINE ExactRay<F> exact_ray(const WaterSide& side, Ray<F> ray) {
   out.height_m = F(0.0f);
   out.eta = F(side.eta);
   if (side.surface != nullptr) bend_normal(side, out);
-  out.cos_incident = clamp(-dot(out.incident, out.normal), F(0.0f), F(1.0f));
-  const Refraction<F> refraction = refract(out.incident, out.normal, out.eta);
-  out.refracted = refraction.direction;
-  out.cos_transmitted = refraction.cos_transmitted;
-  out.transmitted = refraction.valid;
-  out.reflected = reflect(out.incident, out.normal);
-  out.reflectance = fresnel_dielectric(out.cos_incident, out.eta);
+  go_on_from(out);
   return out;
 }
 

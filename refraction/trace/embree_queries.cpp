@@ -2,6 +2,7 @@
 //
 // Triangles come in four kinds, one Embree geometry each, over the scene's own vertices: what a filter must look at is
 // then known from the geometry, and most triangles need none. Primitive numbers keep the scene's order within a kind.
+// Blended triangles, which rays go through, are an Embree scene of their own.
 #include <embree3/rtcore.h>
 
 #include <cstddef>
@@ -32,6 +33,8 @@ struct KindTriangles {
 struct QueryContext {
   RTCIntersectContext rtc;  // first: Embree hands it back
   const RayPacket* rays;
+  VisitHits visit = nullptr;
+  void* visitor = nullptr;
 };
 
 [[noreturn]] void fail(RTCError error) {
@@ -98,24 +101,50 @@ void filter_blocked(const RTCFilterFunctionNArguments* args) {
   refuse(args, lanes, kind.kind.casts ? cut_out(args, lanes, lanes.bits) : lanes.bits);
 }
 
+// Tells of each hit and refuses it, so that the next one is found.
+void filter_blended(const RTCFilterFunctionNArguments* args) {
+  const QueryContext& context = *reinterpret_cast<const QueryContext*>(args->context);
+  const KindTriangles& kind = *static_cast<const KindTriangles*>(args->geometryUserPtr);
+  const FilterLanes lanes = lanes_of(args);
+  std::int32_t id[16] = {};
+  for (int lane = 0; lane < 16; ++lane)
+    if (((lanes.bits >> lane) & 1u) != 0)
+      id[lane] = kind.id[RTCHitN_primID(args->hit, args->N, static_cast<unsigned>(lanes.place[lane]))];
+  context.visit(context.visitor, *context.rays, id, lanes.bits);
+  refuse(args, lanes, lanes.bits);
+}
+
 class EmbreeQueries final : public RayQueries {
  public:
   EmbreeQueries(const RenderScene& scene, int threads)
       : device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {
     if (device_ == nullptr) fail(rtcGetDeviceError(nullptr));
-    scene_ = rtcNewScene(device_);
-    const RTCSceneFlags dynamic = scene.moves() ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE;
-    rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | dynamic));
-    rtcSetSceneBuildQuality(scene_, scene.moves() ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
     sort(scene);
-    for (KindTriangles& kind : kinds_) attach(scene.geometry, kind);
+    scene_ = new_scene(scene.moves());
+    for (KindTriangles& kind : kinds_) {
+      attach(scene.geometry, kind, scene_, static_cast<unsigned>(&kind - kinds_.data()));
+      if (kind.kind.one_sided || kind.kind.masked)
+        rtcSetGeometryIntersectFilterFunction(kind.geometry, &filter_first_hit);
+      if (!kind.kind.casts || kind.kind.masked) rtcSetGeometryOccludedFilterFunction(kind.geometry, &filter_blocked);
+      rtcCommitGeometry(kind.geometry);
+    }
     rtcCommitScene(scene_);
+    if (!blended_.id.empty()) {
+      blended_scene_ = new_scene(scene.moves());
+      attach(scene.geometry, blended_, blended_scene_, 0);
+      rtcSetGeometryIntersectFilterFunction(blended_.geometry, &filter_blended);
+      rtcCommitGeometry(blended_.geometry);
+      rtcCommitScene(blended_scene_);
+    }
     check();
   }
   ~EmbreeQueries() override {
-    for (KindTriangles& kind : kinds_)
-      if (kind.geometry != nullptr) rtcReleaseGeometry(kind.geometry);
+    for (KindTriangles& kind : kinds_) rtcReleaseGeometry(kind.geometry);
     rtcReleaseScene(scene_);
+    if (blended_scene_ != nullptr) {
+      rtcReleaseGeometry(blended_.geometry);
+      rtcReleaseScene(blended_scene_);
+    }
     rtcReleaseDevice(device_);
   }
   EmbreeQueries(const EmbreeQueries&) = delete;
@@ -132,6 +161,17 @@ class EmbreeQueries final : public RayQueries {
       const unsigned kind = query.hit.geomID[i];
       rays.id[i] = valid[i] != 0 && kind != RTC_INVALID_GEOMETRY_ID ? kinds_[kind].id[query.hit.primID[i]] : kNoId;
     }
+  }
+
+  void each_blended(const RayPacket& rays, std::uint32_t lanes, VisitHits visit, void* visitor) const override {
+    if (blended_scene_ == nullptr) return;
+    RTCRayHit16 query;
+    alignas(64) int valid[16];
+    copy(rays, lanes, query.ray, valid);
+    for (int i = 0; i < 16; ++i) query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    QueryContext context = context_of(rays);
+    context.visit = visit, context.visitor = visitor;
+    rtcIntersect16(valid, blended_scene_, &context.rtc, &query);
   }
 
   std::uint32_t blocked(const RayPacket& rays, std::uint32_t lanes) const override {
@@ -153,10 +193,23 @@ class EmbreeQueries final : public RayQueries {
       rtcCommitGeometry(kind.geometry);
     }
     rtcCommitScene(scene_);
+    if (blended_scene_ != nullptr) {
+      rtcUpdateGeometryBuffer(blended_.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+      rtcCommitGeometry(blended_.geometry);
+      rtcCommitScene(blended_scene_);
+    }
     check();
   }
 
  private:
+  RTCScene new_scene(bool moves) const {
+    const RTCScene made = rtcNewScene(device_);
+    const RTCSceneFlags dynamic = moves ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE;
+    rtcSetSceneFlags(made, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | dynamic));
+    rtcSetSceneBuildQuality(made, moves ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
+    return made;
+  }
+
   static QueryContext context_of(const RayPacket& rays) {
     QueryContext context;
     rtcInitIntersectContext(&context.rtc);
@@ -181,8 +234,11 @@ class EmbreeQueries final : public RayQueries {
   void sort(const RenderScene& scene) {
     for (const Drawable& drawable : scene.geometry.drawables) {
       const Material& material = scene.materials.materials[drawable.material];
-      if (!drawable.drawn || material.alpha_mode == AlphaMode::kBlend) continue;
-      KindTriangles& to = kind_of({!material.double_sided, material.alpha_mode == AlphaMode::kMask, !material.unlit});
+      if (!drawable.drawn) continue;
+      KindTriangles& to =
+          material.alpha_mode == AlphaMode::kBlend
+              ? blended_
+              : kind_of({!material.double_sided, material.alpha_mode == AlphaMode::kMask, !material.unlit});
       for (std::uint32_t k = 0; k < drawable.triangle_count; ++k) {
         const std::uint32_t id = drawable.first_triangle + k;
         const Geometry::TriangleRecord& record = scene.geometry.triangles[id];
@@ -199,18 +255,14 @@ class EmbreeQueries final : public RayQueries {
     return kinds_.back();
   }
 
-  void attach(const Geometry& geometry, KindTriangles& kind) {
+  void attach(const Geometry& geometry, KindTriangles& kind, RTCScene scene, unsigned as) {
     kind.geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(kind.geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, geometry.vertices.data(),
                                offsetof(VertexRecord, position_world), sizeof(VertexRecord), geometry.vertices.size());
     rtcSetSharedGeometryBuffer(kind.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, kind.indices.data(), 0,
                                3 * sizeof(std::uint32_t), kind.id.size());
     rtcSetGeometryUserData(kind.geometry, &kind);
-    if (kind.kind.one_sided || kind.kind.masked)
-      rtcSetGeometryIntersectFilterFunction(kind.geometry, &filter_first_hit);
-    if (!kind.kind.casts || kind.kind.masked) rtcSetGeometryOccludedFilterFunction(kind.geometry, &filter_blocked);
-    rtcCommitGeometry(kind.geometry);
-    rtcAttachGeometryByID(scene_, kind.geometry, static_cast<unsigned>(&kind - kinds_.data()));
+    rtcAttachGeometryByID(scene, kind.geometry, as);
     check();
   }
 
@@ -222,6 +274,8 @@ class EmbreeQueries final : public RayQueries {
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
   std::vector<KindTriangles> kinds_;
+  RTCScene blended_scene_ = nullptr;
+  KindTriangles blended_{};
 };
 
 }  // namespace

@@ -16,6 +16,9 @@ struct RayPacket;
 //   id  a triangle a lane; lanes: bit i, lane i
 using KeepHits = std::uint32_t (*)(const void* context, const RayPacket&, const std::int32_t* id, std::uint32_t lanes);
 
+// Of blended triangles that rays meet, in no order, some perhaps twice.
+using VisitHits = void (*)(void* context, const RayPacket&, const std::int32_t* id, std::uint32_t lanes);
+
 struct alignas(64) RayPacket {
   float origin_x[16], origin_y[16], origin_z[16];           // world, m
   float direction_x[16], direction_y[16], direction_z[16];  // any length
@@ -31,6 +34,8 @@ class RayQueries {
   // The nearest opaque triangle of each ray, as the rasterizer draws them: one-sided materials from their front alone,
   // masked ones where `keep` says so, blended ones not.
   virtual void first_hits(RayPacket& rays, std::uint32_t lanes) const = 0;
+  // Hands every blended triangle that a ray meets between its t_near and t_far to `visit`, from either side.
+  virtual void each_blended(const RayPacket& rays, std::uint32_t lanes, VisitHits visit, void* context) const = 0;
   // Lanes whose ray something that casts shadows is in the way of: both sides of everything drawn that is neither unlit
   // nor blended (docs/scenes.md).
   virtual std::uint32_t blocked(const RayPacket& rays, std::uint32_t lanes) const = 0;

@@ -17,6 +17,30 @@ WideI first_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferentia
 //   water            the body that the points lie in, or null
 WideM sun_blocked(const FrameData& f, const WaterPass* water, Vec3<WideF> position, Vec3<WideF> facet, WideM lanes);
 
+// The light of blended triangles that rays pass, the nearer ones' share off, and what they let through.
+struct SeenThrough {
+  Vec3<WideF> light{WideF(0.0f), WideF(0.0f), WideF(0.0f)};
+  WideF keep{1.0f};
+};
+
+// Of the triangles between t_near (and the origin) and the end, by (distance, id), all of them.
+//   end_t, end_id  where the rays end, in their directions' lengths, and what is there: of what is as far as it, the
+//                  smaller id is in front
+//   medium         the body of water that the rays run through, or null: light is absorbed over its own path
+// Nothing, and at no cost, in a scene without blended materials.
+// Source, error: as refraction/blend_region.h.
+SeenThrough seen_through(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential,
+                         float t_near, WideF end_t, WideI end_id, const WaterPass* medium, WideM lanes);
+
+SHOAL_INLINE void fill_packet(RayPacket& packet, const Ray<WideF>& ray, float t_near, WideF t_far) {
+  ray.origin_world.x.store(packet.origin_x), ray.origin_world.y.store(packet.origin_y);
+  ray.origin_world.z.store(packet.origin_z);
+  ray.direction_world.x.store(packet.direction_x), ray.direction_world.y.store(packet.direction_y);
+  ray.direction_world.z.store(packet.direction_z);
+  WideF(t_near).store(packet.t_near);
+  t_far.store(packet.t_far);
+}
+
 // Adds to the frame's counts, from any thread.
 void count_rays(const FrameData& f, RayCounts::Kind kind, std::uint64_t rays);
 

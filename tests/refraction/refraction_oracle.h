@@ -1,5 +1,6 @@
-// What every pixel must show, by brute force in double: its ray against every triangle, Snell's law at the flat water,
-// the refracted (or totally reflected) ray against every triangle again. No acceleration, no clipping, no raster.
+// What every pixel must show, by brute force in double: its ray against every triangle, Snell's law at the water, flat
+// or with waves, the refracted (or totally reflected) ray against every triangle again. No acceleration, no clipping,
+// no raster.
 #pragma once
 
 #include <cmath>
@@ -8,7 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "../water/surface_oracle.h"
 #include "refraction/renderer.h"
+#include "water/prepare_surface.h"
+#include "water/valid_normal.h"
 
 namespace shoal_test {
 
@@ -35,6 +39,10 @@ struct OraclePixel {
   // What magnifies rounding: the least cosine between a ray and what it meets (the water's far side included), times
   // the sine of the hit triangle's first corner; of what shows first, and of the hit.
   double steepness = 1, hit_steepness = 1;
+  // Under waves: metres that the hit may move by one metre of the point on the surface and by one of slope's rounding.
+  double hit_by_surface = 0, hit_by_slope = 0;
+  bool bent = false;   // the waves' normal is not one that the plane can bear
+  bool again = false;  // the ray that goes on meets the displaced surface before its hit
 
   bool shows_the_same(const OraclePixel& o) const {
     return water == o.water && triangle == o.triangle && hit_kind == o.hit_kind && hit_id == o.hit_id;
@@ -57,6 +65,13 @@ class RefractionOracle {
                               scene.materials.materials[t.material].double_sided});
       }
     }
+  }
+
+  // The bodies' surfaces at a time: waves' normals on the plane, or displaced where the body is.
+  void set_waves(double time_s) {
+    surfaces_.clear();
+    for (const WaterBody& body : scene_.waters)
+      surfaces_.push_back(prepare_surface(body.surface, time_s, plane_extent(body)));
   }
 
   // The camera's ray through a point of the frame, in double from the camera itself.
@@ -96,6 +111,13 @@ class RefractionOracle {
     return out;
   }
 
+  // Height of a body's waves over the plane at a point, and the unit normal there; after set_waves.
+  double surface_height(std::size_t body, Vec3d p) const {
+    const WaterBody& b = scene_.waters[body];
+    return surface_oracle::height(surfaces_[body], along(b, p, b.axis_x), along(b, p, b.axis_z));
+  }
+  Vec3d surface_up(std::size_t body, Vec3d p) const { return normal_at(scene_.waters[body], p).up; }
+
  private:
   struct Triangle {
     Vec3d p, e1, e2, n;
@@ -126,25 +148,96 @@ class RefractionOracle {
   }
 
   // Of a ray with a body's outline; infinity: none.
-  static double crossing(const WaterBody& body, Vec3d o, Vec3d d) {
+  double crossing(const WaterBody& body, Vec3d o, Vec3d d) const {
+    if (displaced(body)) return first_crossing(body, o, d);
     const Vec3d n = as_double(body.normal), origin = as_double(body.origin);
     const double t = dot(origin - o, n) / dot(d, n);
-    if (!(t > 0)) return std::numeric_limits<double>::infinity();
-    const Vec3d p = o + d * t;
+    if (!(t > 0) || !inside(body, o + d * t)) return std::numeric_limits<double>::infinity();
+    return t;
+  }
+  static bool inside(const WaterBody& body, Vec3d p) {
+    const Vec3d n = as_double(body.normal);
     for (std::size_t i = 0; i + 2 < body.outline.size(); i += 3) {
       const Vec3d a = as_double(body.outline[i]), b = as_double(body.outline[i + 1]),
                   c = as_double(body.outline[i + 2]);
       const double ab = dot(cross(b - a, p - a), n), bc = dot(cross(c - b, p - b), n), ca = dot(cross(a - c, p - c), n);
-      if ((ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0)) return t;
+      if ((ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0)) return true;
     }
-    return std::numeric_limits<double>::infinity();
+    return false;
+  }
+
+  const WaterSurface* surface_of(const WaterBody& body) const {
+    return surfaces_.empty() || body.surface.kind == SurfaceKind::kFlat
+               ? nullptr
+               : &surfaces_[static_cast<std::size_t>(&body - scene_.waters.data())];
+  }
+  bool displaced(const WaterBody& body) const {
+    return surface_of(body) != nullptr && body.surface.geometry == WaterGeometry::kDisplaced;
+  }
+  static double along(const WaterBody& body, Vec3d p, Vec3f axis) {
+    return dot(p - as_double(body.origin), as_double(axis));
+  }
+  double gap(const WaterBody& body, Vec3d p) const {
+    return along(body, p, body.normal) -
+           surface_oracle::height(*surface_of(body), along(body, p, body.axis_x), along(body, p, body.axis_z));
+  }
+  // The first change of side within the greatest heights, by dense samples and halving.
+  double first_crossing(const WaterBody& body, Vec3d o, Vec3d d) const {
+    const double none = std::numeric_limits<double>::infinity();
+    const double bound = static_cast<double>(surface_of(body)->height_bound_m), y = along(body, o, body.normal),
+                 rise = dot(d, as_double(body.normal));
+    const double a = (bound - y) / rise, b = (-bound - y) / rise, step = 2e-3 / norm_of(d);
+    const double from = std::max(std::min(a, b), 0.0), to = std::min(std::max(a, b), from + 6.0 / norm_of(d));
+    if (!(to > from)) return none;
+    double t = from;
+    bool above = gap(body, o + d * t) > 0;
+    while (t < to) {
+      const double next = t + step;
+      const bool there = gap(body, o + d * next) > 0;
+      if (there != above && inside(body, o + d * next)) {
+        double lo = t, hi = next;
+        for (int i = 0; i < 40; ++i) ((gap(body, o + d * (0.5 * (lo + hi))) > 0) == above ? lo : hi) = 0.5 * (lo + hi);
+        return hi;
+      }
+      above = there;
+      t = next;
+    }
+    return none;
+  }
+
+  struct SurfaceNormal {
+    Vec3d up{0, 1, 0};
+    double curvature = 0;  // 1/m
+  };
+  SurfaceNormal normal_at(const WaterBody& body, Vec3d p) const {
+    const WaterSurface* surface = surface_of(body);
+    const Vec3d n = as_double(body.normal);
+    if (surface == nullptr) return {n, 0};
+    const double x = along(body, p, body.axis_x), z = along(body, p, body.axis_z), h = 1e-4;
+    const auto at = [&](double i, double k) { return surface_oracle::height(*surface, x + i * h, z + k * h); };
+    const double sx = (at(1, 0) - at(-1, 0)) / (2 * h), sz = (at(0, 1) - at(0, -1)) / (2 * h), here = 2 * at(0, 0);
+    const double xx = (at(1, 0) + at(-1, 0) - here) / (h * h), zz = (at(0, 1) + at(0, -1) - here) / (h * h),
+                 xz = (at(1, 1) + at(-1, -1) - at(1, -1) - at(-1, 1)) / (4 * h * h);
+    return {unit_of(n - as_double(body.axis_x) * sx - as_double(body.axis_z) * sz),
+            std::sqrt(xx * xx + zz * zz + 2 * xz * xz)};
   }
 
   // On through the surface, or back down from it.
   void follow(const WaterBody& body, Vec3d d, OraclePixel& out) const {
-    const bool from_water = dot(d, as_double(body.normal)) > 0;
-    const Vec3d n = as_double(body.normal) * (from_water ? -1.0 : 1.0);
+    const SurfaceNormal surface = normal_at(body, out.position);
+    const bool moved = displaced(body), from_water = dot(d, moved ? surface.up : as_double(body.normal)) > 0;
+    const double turn = from_water ? -1.0 : 1.0;
+    Vec3d n = surface.up * turn;
     const double ior = static_cast<double>(body.ior), eta = from_water ? ior : 1.0 / ior;
+    if (surface_of(body) != nullptr && !moved) {
+      const auto narrow = [](Vec3d v) {
+        return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+      };
+      const Vec3f given = narrow(n), plane = body.normal * static_cast<float>(turn);
+      const Vec3f valid = valid_normal<float>(narrow(d), plane, given, static_cast<float>(eta));
+      out.bent = valid.x != given.x || valid.y != given.y || valid.z != given.z;
+      if (out.bent) n = unit_of(as_double(valid));
+    }
     const double cos_i = -dot(d, n), sin2_t = eta * eta * (1.0 - cos_i * cos_i);
     const bool total = sin2_t > 1.0;
     Vec3d on = d + n * (2.0 * cos_i);
@@ -154,6 +247,10 @@ class RefractionOracle {
       on = bend_ ? d * eta + n * (eta * cos_i - cosine) : d;
     }
     const Hit hit = nearest(out.position, on, 1e-9);
+    if (moved) {
+      const Vec3d off = out.position + n * ((total ? 1.0 : -1.0) * 1e-6);
+      out.again = first_crossing(body, off, on) < hit.t;
+    }
     out.hit_kind = HitKind::kSky;
     if (!std::isfinite(hit.t)) return;
     out.hit_kind = total ? HitKind::kMirror : HitKind::kSurface;
@@ -161,11 +258,15 @@ class RefractionOracle {
     out.hit_position = out.position + on * hit.t;
     out.path_m += hit.t;
     out.hit_steepness = std::min(cos_i, cosine) * hit.steepness;
+    out.hit_by_slope = hit.t * 2.0 / out.hit_steepness;
+    out.hit_by_surface = surface.curvature * out.hit_by_slope;
+    if (moved) out.steepness = std::min(out.steepness, cos_i);
   }
 
   const RenderScene& scene_;
   bool bend_;
   std::vector<Triangle> triangles_;
+  std::vector<WaterSurface> surfaces_;  // empty: all flat
 };
 
 inline RenderScene built_in(const std::string& name, std::uint64_t triangles) {

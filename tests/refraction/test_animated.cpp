@@ -67,6 +67,8 @@ TEST_CASE("animated: every stage of a moving scene's frame is that of the scene 
   settings.width_px = 96, settings.height_px = 64;
   settings.digests = true;
   settings.threads = 3;
+  settings.method = GENERATE("two-phase", "ray-traced");
+  if (settings.method == "ray-traced") settings.shadows = Shadows::kRays;
   Renderer renderer(moving, settings);
   std::string first_picture;
   for (const double time_s : {1.5, 0.0, 0.75}) {
@@ -76,7 +78,7 @@ TEST_CASE("animated: every stage of a moving scene's frame is that of the scene 
     for (std::size_t b = 0; b < still.waters.size(); ++b) still.waters[b].depth_m = moving.waters[b].depth_m;
     Renderer reference(still, settings);
     for (const PlacedCamera& camera : still.cameras) {
-      CAPTURE(time_s, camera.name);
+      CAPTURE(settings.method, time_s, camera.name);
       Frame frame, expected;
       renderer.render(camera.camera, time_s, frame);
       reference.render(camera.camera, 0, expected);
