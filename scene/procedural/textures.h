@@ -31,5 +31,6 @@ Texture make_beach_ball();       // once around u: six gores, caps at v = 0 and 
 Texture make_ring_stripes();     // once around u: eight stripes
 Texture make_awning();           // once around u: sixteen stripes
 Texture make_ripple_marble();    // 1.2 m: veined white stone
+Texture make_checker();          // 2 m: 4 x 4 stone slabs, pale and slate in turn
 
 }  // namespace shoal
