@@ -71,7 +71,7 @@ void add_frame_options(CLI::App& command, RawOptions& raw) {
   add("--anisotropy", raw.anisotropy, "N", "probes along the longer side of a pixel in a texture, 1 to 16; 1");
   add("--shadows", raw.shadows, "off|map|rays", "of the sun; map");
   add("--shadow-map", raw.shadow_map, "N", "texels a side of the sun's shadow map, a power of two, 256 to 8192; 4096");
-  add("--reflections", raw.reflections, "environment|scene", "environment");
+  add("--reflections", raw.reflections, "environment|scene", "scene");
   add("--exposure", raw.exposure, "STOPS", "of the PNG; 0");
   add("--tonemap", raw.tonemap, "none|aces", "of the PNG; none");
   add("--background", raw.background, "R,G,B|environment",

@@ -59,11 +59,11 @@ refused_isa=$(for isa in scalar sse4.2 avx2 avx512 neon; do "$shoal" list isas |
 [ -z "$refused_isa" ] || r "--isa '$refused_isa': this machine cannot run it" --isa "$refused_isa"
 r "--anisotropy" --anisotropy 0
 r "--anisotropy" --anisotropy 17
-r "--shadows 'rays': has not come yet" --shadows rays
+r "--shadows 'dark': unknown; expected one of: off, map, rays" --shadows dark
 r "--shadows 'on': unknown; expected one of: off, map" --shadows on
 r "--shadow-map '1000': not a power of two; expected 256, 512, 1024, 2048, 4096 or 8192" --shadow-map 1000
 r "--shadow-map '16384'" --shadow-map 16384
-r "--reflections 'scene': has not come yet" --reflections scene
+r "--reflections 'all': unknown; expected one of: environment, scene" --reflections all
 r "--reflections 'none': unknown" --reflections none
 r "--tonemap 'filmic': unknown; expected one of: none, aces" --tonemap filmic
 r "--background" --background 1,2
@@ -82,11 +82,13 @@ r "--set absorption" --set absorption=1,2
 r "--set absorption" --set absorption=-1,0,0
 r "--set depth" --set depth=0
 r "--set size" --set size=3
-r "--set surface 'perlin': has not come yet" --set surface=perlin
 r "--set surface 'bumpy': unknown" --set surface=bumpy
 r "--set geometry 'displaced': has not come yet" --set geometry=displaced
-r "--set 'slope': has not come yet" --set slope=0.1
-r "--set 'seed': has not come yet" --set seed=7
+r "--set surface 'bumpy': unknown" --set surface=perlin+bumpy
+r "--set slope" --set slope=-0.1
+r "--set octaves" --set octaves=1.5
+r "--set octaves" --set octaves=9
+r "--set fade 'steep': unknown" --set fade=steep
 r "unknown key" --set two-phase.nonsense=1
 r "unknown" --set three-phase.x=1
 r "has not come yet" --set liu-2020.x=1
