@@ -4,12 +4,13 @@
 
 #include "scene/procedural/mesh_builder.h"
 #include "scene/procedural/scenes.h"
+#include "scene/procedural/shapes.h"
 #include "scene/procedural/textures.h"
 
 namespace shoal {
 namespace {
 
-enum Mat : int { kFloor, kWall, kRim, kTerrace, kLawn, kBall, kKnot, kMatCount };
+enum Mat : int { kFloor, kWall, kRim, kTerrace, kLawn, kGardenWall, kBall, kKnot, kMatCount };
 
 // Metres; the water is y = 0.
 constexpr float kHalf = 4.0f, kDepth = 1.3f, kRimTop = 0.16f, kRimOut = 4.45f, kTerraceY = 0.06f, kTerraceOut = 10.0f;
@@ -44,6 +45,10 @@ void basin(PartBuilder& b) {
   frame(b, kRim, kHalf, kRimTop, kRimOut, kRimTop, 0.6f, {1, 1, 1});
   frame(b, kRim, kRimOut, kRimTop, kRimOut, kTerraceY, 0.6f, {0.9f, 0.9f, 0.9f});
   frame(b, kTerrace, kRimOut, kTerraceY, kTerraceOut, kTerraceY, 2.4f, {1, 1, 1});
+  // Two garden walls behind, for the water to mirror.
+  const float o = kTerraceOut;
+  b.box(kGardenWall, 1, {-o - 0.3f, -0.2f, -o - 0.3f}, {o, 1.9f, -o}, 3.0f);
+  b.box(kGardenWall, 1, {-o - 0.3f, -0.2f, -o}, {-o, 1.9f, o}, 3.0f);
   frame(b, kLawn, kTerraceOut, kTerraceY, kLawnOut, -0.5f, 4.0f, {0.22f, 0.32f, 0.08f});
 }
 
@@ -59,10 +64,7 @@ void ball(PartBuilder& b, std::uint64_t triangles) {
   b.surface(
       kBall, around, belts + 1,
       [&](float u, float v) {
-        const Vec2f a = turn(1.0f - u), e = turn(0.5f * v - 0.25f);
-        const bool pole = v == 0.0f || v == 1.0f;
-        const float ring = pole ? 0.0f : e.x;
-        const Vec3f n = normalize({ring * a.x, pole ? (v == 0.0f ? -1.0f : 1.0f) : e.y, ring * a.y});
+        const Vec3f n = normalize(sphere_direction(u, v));
         return SurfacePoint{kCentre + n * kRadius, n, {u, 1.0f - v}};
       },
       Normals::kGiven, Poles::kBoth);
@@ -148,10 +150,11 @@ void set_materials(Materials& m) {
     material.metallic = 0;
     material.roughness = 0.8f;
   }
-  m.textures = {make_checker(), make_pool_tiles(), make_coping(), make_pavers(), make_grass()};
-  for (const Mat textured : {kFloor, kWall, kRim, kTerrace, kLawn})
+  m.textures = {make_checker(), make_pool_tiles(), make_coping(), make_pavers(), make_grass(), make_stucco()};
+  for (const Mat textured : {kFloor, kWall, kRim, kTerrace, kLawn, kGardenWall})
     m.materials[textured].base_color_texture = static_cast<std::int32_t>(textured);
   for (const Mat glazed : {kFloor, kWall}) m.materials[glazed].roughness = 0.4f;
+  m.materials[kGardenWall].base_color = {0.90f, 0.66f, 0.45f, 1};
   m.materials[kBall].base_color = {0.06f, 0.38f, 0.09f, 1};
   m.materials[kBall].roughness = 0.28f;
   m.materials[kKnot].base_color = {0.10f, 0.42f, 0.26f, 1};

@@ -2,6 +2,7 @@
 // and refraction then only share out white: every pixel of every method is white, or light was lost or made.
 #include "scene/procedural/part_plan.h"
 #include "scene/procedural/scenes.h"
+#include "scene/procedural/shapes.h"
 
 namespace shoal {
 namespace {
@@ -32,10 +33,7 @@ void ball(PartBuilder& b, int n) {
   b.surface(
       kWhite, 2 * n + 2, n + 2,
       [&](float u, float v) {
-        const Vec2f a = turn(1.0f - u), e = turn(0.5f * v - 0.25f);
-        const bool pole = v == 0.0f || v == 1.0f;
-        const float ring = pole ? 0.0f : e.x;
-        const Vec3f d = normalize({ring * a.x, pole ? (v == 0.0f ? -1.0f : 1.0f) : e.y, ring * a.y});
+        const Vec3f d = normalize(sphere_direction(u, v));
         return SurfacePoint{kCentre + d * 0.4f, d, {u, 1.0f - v}};
       },
       Normals::kGiven, Poles::kBoth);

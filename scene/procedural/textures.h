@@ -32,5 +32,9 @@ Texture make_ring_stripes();     // once around u: eight stripes
 Texture make_awning();           // once around u: sixteen stripes
 Texture make_ripple_marble();    // 1.2 m: veined white stone
 Texture make_checker();          // 2 m: 4 x 4 stone slabs, pale and slate in turn
+Texture make_gravel();           // 0.5 m (of a tank): 24 x 24 pebbles
+Texture make_rock();             // 1 m: grey stone with lichen
+Texture make_fish_bands();       // u once around, v from tail to nose: white bands on orange
+Texture make_fish_flank();       // the same: blue with a dark sweep
 
 }  // namespace shoal

@@ -1,0 +1,34 @@
+// Shapes that several procedural scenes stand things on: spheres, rocks, leaves, and where copies are placed.
+#pragma once
+
+#include "scene/procedural/mesh_builder.h"
+
+namespace shoal {
+
+// Over the unit square, u once round and v from the bottom to the top, exactly on the axis there: about unit, the front
+// outside.
+Vec3f sphere_direction(float u, float v);
+
+// Three-dimensional roughness in [0, 1] from two lattices: a function of the place alone, so that touching faces agree.
+float rough(Vec3f p, float scale, int octaves, std::uint32_t seed);
+
+// In [0, 1), by integers alone.
+float random_unit(int i, int which, std::uint32_t seed);
+
+// Leaves are brighter outside and above, darker in the hollows.
+Vec3f leaf_shade(float bump, float upward);
+
+// A bush or a tree's crown.
+void leafy_ball(PartBuilder& b, int material, int level, Vec3f centre, float radius);
+
+// A boulder of half size `half` round `centre`; smooth while it is coarse.
+void rock(PartBuilder& b, int material, int level, Vec3f centre, Vec3f half, float uv_metres, std::uint32_t seed,
+          Vec3f color = {1, 1, 1});
+
+// A blade that stands at `foot` and bends over by `lean` at its tip, `width` broad at its foot; two quads a level.
+void blade(PartBuilder& b, int material, int level, Vec3f foot, Vec3f lean, float height, float width, Vec3f color);
+
+// Turned about the vertical by a share of a full turn, after tipping about x.
+Mat4 placed(Vec3f at, float turned, float scale = 1.0f, float tipped = 0.0f);
+
+}  // namespace shoal
