@@ -11,6 +11,7 @@ Scene make_ball(std::uint64_t triangles);
 Scene make_knot(std::uint64_t triangles);
 Scene make_furnace(std::uint64_t triangles);
 Scene make_tank(std::uint64_t triangles);
+Scene make_pond(std::uint64_t triangles);
 
 // A node at `at`, looking along its -z at `target`, with +y as near to up as can be.
 //   yfov  radians

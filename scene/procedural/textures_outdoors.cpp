@@ -98,4 +98,56 @@ Texture make_fish_flank() {
   });
 }
 
+namespace {
+
+Vec3f dirt_at(float u, float v) {
+  const float cloud = fractal_noise(u * 6.0f, v * 6.0f, 6, 5, 181),
+              grain = fractal_noise(u * 96.0f, v * 96.0f, 96, 2, 182);
+  Vec3f ground = lerp(Vec3f{0.56f, 0.46f, 0.34f}, Vec3f{0.70f, 0.60f, 0.46f}, cloud) * (0.84f + 0.3f * grain);
+  // Pebbles in drifts.
+  const float drift = ramp(0.45f, 0.62f, fractal_noise(u * 5.0f, v * 5.0f, 5, 3, 183));
+  return lerp(ground, pebbles(u, v, 36, 184, ground), 0.35f + 0.65f * drift);
+}
+
+// An earthenware pot: glaze over belly and shoulder, a band with a zigzag, bare clay at the foot and inside.
+Texture make_glaze(Vec3f dark, Vec3f light, std::uint32_t seed) {
+  return paint_texture(256, 512, [=](float u, float v) {
+    const float run = fractal_noise(u * 8.0f, v * 4.0f, 8, 3, seed),
+                fleck = fractal_noise(u * 48.0f, v * 96.0f, 48, 2, seed + 1);
+    const Vec3f clay = lerp(Vec3f{0.62f, 0.40f, 0.28f}, Vec3f{0.74f, 0.52f, 0.38f}, fleck);
+    const Vec3f cream = Vec3f{0.93f, 0.88f, 0.76f} * (0.92f + 0.12f * fleck);
+    Vec3f c = lerp(dark, light, 0.25f + 0.75f * run) * (0.92f + 0.16f * fleck);
+    const float teeth = std::fabs(2.0f * (u * 12.0f - std::floor(u * 12.0f)) - 1.0f);
+    const float band = std::fabs(v - 0.36f);
+    if (band < 0.062f) c = lerp(cream, c, ramp(0.016f, 0.022f, std::fabs(v - 0.36f - 0.05f * (teeth - 0.5f))));
+    if (band > 0.056f && band < 0.068f) c = cream;
+    if (v > 0.655f && v < 0.74f) c = cream;
+    c = lerp(clay, c, ramp(0.10f, 0.115f, v + 0.03f * (run - 0.5f)));
+    return lerp(c, clay * 0.8f, ramp(0.755f, 0.765f, v));
+  });
+}
+
+}  // namespace
+
+Texture make_dirt() {
+  return paint_texture(1024, 1024, [](float u, float v) { return dirt_at(u, v); });
+}
+
+Texture make_verge() {
+  return paint_texture(1024, 256, [](float u, float v) {
+    // Grass as the meadow's, in its tint; bare ground as the beach's.
+    const float patch = fractal_noise(u * 6.0f, v * 3.0f, 6, 4, 191),
+                blade = fractal_noise(u * 128.0f, v * 48.0f, 128, 2, 192);
+    const Vec3f turf =
+        lerp(Vec3f{0.392f, 0.485f, 0.247f}, Vec3f{0.49f, 0.565f, 0.277f}, patch) * (0.78f + 0.28f * blade);
+    const Vec3f ground = dirt_at(u, v * 0.4f) * Vec3f{0.965f, 0.93f, 0.865f};
+    const float ragged = v + 0.55f * (fractal_noise(u * 10.0f, v * 4.0f, 10, 4, 193) - 0.5f) + 0.35f * (blade - 0.5f);
+    const float cover = ramp(0.42f, 0.56f, lerp(ragged, v, ramp(0.35f, 0.5f, std::fabs(v - 0.5f))));
+    return lerp(ground, turf, cover);
+  });
+}
+
+Texture make_blue_glaze() { return make_glaze({0.07f, 0.16f, 0.46f}, {0.16f, 0.38f, 0.78f}, 201); }
+Texture make_green_glaze() { return make_glaze({0.06f, 0.30f, 0.16f}, {0.26f, 0.60f, 0.30f}, 211); }
+
 }  // namespace shoal
