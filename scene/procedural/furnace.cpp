@@ -28,10 +28,13 @@ void blocks(PartBuilder& b, int n) {
   b.box(kWhite, n, {-0.5f, 0.3f, 0.3f}, {0.1f, 0.6f, 0.7f}, 1);
 }
 
-void ball(PartBuilder& b, int n) {
+// The level is about its triangles.
+void ball(PartBuilder& b, int level) {
   constexpr Vec3f kCentre{0.6f, 0.05f, 0.6f};
+  int belts = 1;
+  while (4 * (belts + 1) * (belts + 1) <= level) ++belts;
   b.surface(
-      kWhite, 2 * n + 2, n + 2,
+      kWhite, std::max(3, level / (2 * belts)), belts + 1,
       [&](float u, float v) {
         const Vec3f d = normalize(sphere_direction(u, v));
         return SurfacePoint{kCentre + d * 0.4f, d, {u, 1.0f - v}};

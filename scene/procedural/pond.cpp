@@ -148,7 +148,7 @@ Scene make_pond(std::uint64_t triangles) {
   water.size_x = 2 * pond::kWaterHalfX;
   water.size_z = 2 * pond::kWaterHalfZ;
   water.depth = -pond::kLowest;
-  water.absorption = {0.30f, 0.085f, 0.10f};
+  water.absorption = {0.24f, 0.07f, 0.08f};
   water.surface.kind = SurfaceKind::kGradientWaves;
   water.surface.slope = 0.03f;
   add_water(scene, "water", {0, 0, 0}, water);

@@ -30,14 +30,16 @@ Vec2f pot_profile(float t) {
 }
 
 void pot(PartBuilder& b, int material, int level) {
-  b.surface(
-      material, level + 4, level < 3 ? level + 2 : 3 * level - 3,
-      [&](float u, float v) {
-        const Vec2f c = turn(1.0f - u), p = pot_profile(clamp01(v));
-        const float shade = v > 0.75f ? mix(0.75f, 0.25f, (v - 0.75f) / 0.25f) : mix(0.7f, 1.0f, clamp01(v * 4.0f));
-        return SurfacePoint{{c.x * p.x, p.y, c.y * p.x}, {0, 1, 0}, {u, v}, Vec3f{1, 1, 1} * shade};
-      },
-      Normals::kSmooth, Poles::kBoth);
+  turned_solid(b, material, level + 4, level < 3 ? level + 2 : 3 * level - 3, pot_profile, [](float t) {
+    return Vec3f{1, 1, 1} * (t > 0.75f ? mix(0.75f, 0.25f, (t - 0.75f) / 0.25f) : mix(0.7f, 1.0f, clamp01(t * 4.0f)));
+  });
+}
+
+// A broad head that tapers to its point.
+Vec2f arrow_head(float t) {
+  constexpr float kWidest = 0.67f;
+  const float back = clamp01((t - kWidest) / (1.0f - kWidest));
+  return {t < kWidest ? 0.05f * t / kWidest : 0.05f * (1.0f - back), 0.13f * std::min(1.0f, t / kWidest) - 0.09f};
 }
 
 }  // namespace
@@ -52,18 +54,14 @@ void arrow(PartBuilder& b, int level) {
            return Vec3f{0, mix(0.02f, kLength, t), 0};
          },
          {1, 0, 0}, false, {1, 4});
-  b.lathe(kHead, level + 2, 2, {0, -0.09f, 0},
-          [](float t) {
-            return Vec2f{t < 1 ? 0.056f * t : 0.013f, 0.14f * t};
-          },
-          Poles::kV0, {1, 1});
+  turned_solid(b, kHead, level + 2, 3, arrow_head, [](float) { return Vec3f{1, 1, 1}; });
   for (int i = 0; i < 3; ++i) {
     const Vec2f c = turn(static_cast<float>(i) / 3.0f);
     const Vec3f out{c.x, 0, c.y}, side{-c.y, 0, c.x};
     b.surface(kFletching, 1, level, [&](float u, float v) {
       const float wide = 0.012f + 0.05f * u * (1.0f - 0.45f * v);
       const Vec3f p = out * wide + Vec3f{0, kLength - 0.27f + 0.24f * v - 0.05f * u, 0};
-      return SurfacePoint{p, -side, {u, v}, i == 0 ? Vec3f{1.0f, 0.85f, 0.25f} : Vec3f{1, 1, 1}};
+      return SurfacePoint{p, side, {u, v}, i == 0 ? Vec3f{1.0f, 0.85f, 0.25f} : Vec3f{1, 1, 1}};
     });
   }
 }

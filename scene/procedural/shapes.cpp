@@ -43,7 +43,7 @@ void leafy_ball(PartBuilder& b, int material, int level, Vec3f centre, float rad
 
 void rock(PartBuilder& b, int material, int level, Vec3f centre, Vec3f half, float uv_metres, std::uint32_t seed,
           Vec3f color) {
-  const float depth = std::min(1.0f, static_cast<float>(level + 2) / 6.0f);
+  const float depth = std::min(1.0f, static_cast<float>(level) / 6.0f);
   const float size = (half.x + half.y + half.z) * (1.0f / 3.0f), around = 6.2831853f * size / uv_metres;
   // Whole repeats, so that the seam closes.
   const float repeats = std::max(1.0f, std::floor(around + 0.5f));

@@ -28,6 +28,24 @@ void rock(PartBuilder& b, int material, int level, Vec3f centre, Vec3f half, flo
 // A blade that stands at `foot` and bends over by `lean` at its tip, `width` broad at its foot; two quads a level.
 void blade(PartBuilder& b, int material, int level, Vec3f foot, Vec3f lean, float height, float width, Vec3f color);
 
+// A solid of revolution about the y axis, closed at both ends: profile(t) is (radius, height), from the lower to the
+// upper end of the axis, the front to its right. Normals follow the rows, so that few of them still look round.
+//   color  Vec3f(float t)
+template <class Fn, class ColorFn>
+void turned_solid(PartBuilder& b, int material, int around, int up, Fn&& profile, ColorFn&& color) {
+  b.surface(
+      material, around, up,
+      [&](float u, float v) {
+        const float reach = 0.5f / static_cast<float>(up);
+        const Vec2f c = turn(1.0f - u), p = profile(v), from = profile(std::max(0.0f, v - reach)),
+                    to = profile(std::min(1.0f, v + reach));
+        const Vec3f slope = normalize({c.x * (to.y - from.y), from.x - to.x, c.y * (to.y - from.y)});
+        const Vec3f normal = v == 0.0f ? Vec3f{0, -1, 0} : v == 1.0f ? Vec3f{0, 1, 0} : slope;
+        return SurfacePoint{{c.x * p.x, p.y, c.y * p.x}, normal, {u, v}, color(v)};
+      },
+      Normals::kGiven, Poles::kBoth);
+}
+
 // Turned about the vertical by a share of a full turn, after tipping about x.
 Mat4 placed(Vec3f at, float turned, float scale = 1.0f, float tipped = 0.0f);
 

@@ -156,8 +156,8 @@ void weeds(PartBuilder& b, int level) {
     float x, z, height;
     int blades;
   };
-  static constexpr Clump kClumps[] = {{-0.76f, -0.26f, 0.60f, 9}, {-0.20f, -0.30f, 0.46f, 8}, {0.42f, -0.30f, 0.52f, 8},
-                                      {0.80f, -0.28f, 0.62f, 7},  {-0.62f, 0.06f, 0.24f, 7},  {0.36f, 0.12f, 0.17f, 8},
+  static constexpr Clump kClumps[] = {{-0.76f, -0.26f, 0.54f, 9}, {-0.20f, -0.30f, 0.46f, 8}, {0.42f, -0.30f, 0.52f, 8},
+                                      {0.80f, -0.28f, 0.55f, 7},  {-0.62f, 0.06f, 0.24f, 7},  {0.36f, 0.12f, 0.17f, 8},
                                       {-0.12f, 0.10f, 0.13f, 7}};
   int n = 0;
   for (const Clump& k : kClumps) {
@@ -298,15 +298,22 @@ Scene make_tank(std::uint64_t triangles) {
   Mat4 top = kIdentity4;
   top.m[1][3] = kWater;
   add_tank_water(scene, "top", top, 2 * kHalfZ, kWater - kFloor);
+  SurfaceSettings& surface = scene.waters.back().surface;
+  surface.kind = SurfaceKind::kGradientWaves;
+  surface.slope = 0.02f;
+  surface.wavelength_m = 0.35f;
   // Upright: local y is the world's z, local z points down.
   const Mat4 front{{{1, 0, 0, 0}, {0, 0, -1, 0.5f * (kFloor + kWater)}, {0, 1, 0, kHalfZ}, {0, 0, 0, 1}}};
   add_tank_water(scene, "front", front, kWater - kFloor, 2 * kHalfZ);
   add_sun(scene, {-0.40f, 0.80f, 0.62f}, {1.0f, 0.95f, 0.86f}, 2.4f);
-  add_camera(scene, "front", {0.10f, 0.62f, 2.25f}, {0.0f, 0.41f, 0.0f}, 0.62f);
+  // The first four look down through the front: none of their rays meets the top from below. `low` looks up at it, and
+  // sees the tank mirrored there.
+  add_camera(scene, "front", {0.12f, 0.86f, 2.20f}, {0.0f, 0.40f, 0.0f}, 0.62f);
   add_camera(scene, "oblique", {1.45f, 1.18f, 1.95f}, {0.04f, 0.38f, 0.02f}, 0.62f);
   add_camera(scene, "above", {-0.55f, 1.95f, 1.15f}, {0.0f, 0.42f, 0.0f}, 0.68f);
-  add_camera(scene, "grazing", {-1.04f, 0.56f, 0.70f}, {0.50f, 0.34f, 0.20f}, 0.80f);
+  add_camera(scene, "grazing", {-1.04f, 0.84f, 0.70f}, {0.46f, 0.36f, 0.18f}, 0.82f);
   add_camera(scene, "under", {-0.70f, 0.40f, 0.22f}, {0.35f, 0.46f, -0.06f}, 1.10f);
+  add_camera(scene, "low", {-0.60f, 0.14f, 1.85f}, {0.02f, 0.45f, 0.0f}, 0.70f);
   return scene;
 }
 

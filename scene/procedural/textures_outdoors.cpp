@@ -29,13 +29,14 @@ Pebble find_pebble(float x, float y, int period, std::uint32_t seed) {
   const int cx = static_cast<int>(std::floor(x)), cy = static_cast<int>(std::floor(y));
   for (int j = cy - 1; j <= cy + 1; ++j) {
     for (int i = cx - 1; i <= cx + 1; ++i) {
-      const int wi = ((i % period) + period) % period, wj = ((j % period) + period) % period;
-      const float dx = x - (static_cast<float>(i) + 0.25f + 0.5f * unit_hash(wi, wj, seed));
-      const float dy = y - (static_cast<float>(j) + 0.25f + 0.5f * unit_hash(wi, wj, seed + 1));
-      const float radius = 0.38f + 0.30f * unit_hash(wi, wj, seed + 2);
-      const float stretch = 0.75f + 0.5f * unit_hash(wi, wj, seed + 3);
+      // Five numbers of six bits out of one hash.
+      const std::uint32_t h = hash_lattice(((i % period) + period) % period, ((j % period) + period) % period, seed);
+      const auto random = [h](int which) { return static_cast<float>((h >> (6 * which)) & 63u) * (1.0f / 64.0f); };
+      const float dx = x - (static_cast<float>(i) + 0.25f + 0.5f * random(0));
+      const float dy = y - (static_cast<float>(j) + 0.25f + 0.5f * random(1));
+      const float radius = 0.38f + 0.30f * random(2), stretch = 0.75f + 0.5f * random(3);
       const float inside = 1.0f - std::sqrt(dx * dx * stretch + dy * dy / stretch) / radius;
-      if (inside > best.inside) best = {inside, unit_hash(wi, wj, seed + 4)};
+      if (inside > best.inside) best = {inside, random(4)};
     }
   }
   return best;
