@@ -37,7 +37,7 @@ std::vector<Mat4> arrows_at() {
     const auto random = [i](int which) { return random_unit(i, which, 491); };
     const Vec2f d = turn(random(0));
     const float r = shore_m(d) * std::sqrt(random(1)) * 1.02f, x = d.x * r, z = d.y * r;
-    places.push_back(placed({x, ground_y(x, z) - 0.02f, z}, random(2), 1.0f, 0.02f + 0.11f * random(3)));
+    places.push_back(placed({x, ground_y(x, z) - 0.10f, z}, random(2), 1.0f, 0.02f + 0.11f * random(3)));
   }
   return places;
 }
@@ -92,7 +92,7 @@ std::vector<Part> make_parts(std::uint64_t triangles) {
           {"tree", tree, ring_at(13, 531, 21.0f, 46.0f, 0.9f, 1.5f), 5, false},
           {"arrow", arrow, arrows_at(), 4, false},
           {"bush", bush, ring_at(15, 541, 14.5f, 24.0f, 0.7f, 1.3f), 3, false, "bushes"},
-          {"pine", pine, ring_at(17, 551, 26.0f, 70.0f, 0.9f, 1.6f), 4, false},
+          {"pine", pine, ring_at(17, 551, 26.0f, 70.0f, 0.9f, 1.6f), 5, false},
           {"reed", reeds, reeds_at(), 7, false},
           {"grass", grass, once, 11, false}};
 }
@@ -156,7 +156,7 @@ Scene make_pond(std::uint64_t triangles) {
   scene.background.zenith = {0.15f, 0.33f, 0.70f};
   scene.background.horizon = {0.70f, 0.81f, 0.92f};
   scene.background.ground = {0.22f, 0.24f, 0.12f};
-  add_camera(scene, "high", {6.4f, 4.4f, 10.6f}, {-0.9f, -0.35f, -0.8f}, 0.80f);
+  add_camera(scene, "high", {6.4f, 4.3f, 10.8f}, {-0.9f, 0.15f, -0.8f}, 0.84f);
   add_camera(scene, "grazing", {5.2f, 0.95f, 7.4f}, {-1.4f, 0.15f, -1.5f}, 0.80f);
   add_camera(scene, "under", {2.0f, -0.62f, 4.3f}, {-0.6f, -0.70f, -0.4f}, 1.20f);
   add_camera(scene, "surface", {4.2f, 0.10f, 4.2f}, {-2.0f, 0.12f, -1.5f}, 0.85f);

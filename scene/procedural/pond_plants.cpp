@@ -72,20 +72,20 @@ void tree(PartBuilder& b, int level) {
 }
 
 void pine(PartBuilder& b, int level) {
-  constexpr float kHeight = 8.0f;
+  constexpr float kHeight = 8.0f, kTiers = 5.0f;
   // What its few faces could not follow is left out of a coarse one.
-  const float fine = std::min(1.0f, static_cast<float>(level) / 6.0f), depth = 0.5f * fine, droop = 0.32f * fine;
+  const float fine = std::min(1.0f, static_cast<float>(level) / 4.0f), depth = 0.4f * fine, droop = 0.34f * fine;
   const auto stem = [](float t) { return Vec3f{0, 1.6f * t - 0.3f, 0}; };
   b.tube(kBark, level + 3, 1, 0.17f, stem, {1, 0, 0}, false, {1, 2});
   b.surface(
-      kPineLeaves, level + 5, 4 * level + 3,
+      kPineLeaves, level + 4, 6 * level + 1,
       [&](float u, float v) {
         const Vec2f c = turn(1.0f - u);
         // Boughs in tiers, each drooping over the next.
-        const float tiers = 6.0f * v - std::floor(6.0f * v), taper = 1.0f - v;
-        const float tier = droop * (tiers < 0.8f ? 0.5f - tiers / 0.8f : (tiers - 0.8f) / 0.2f - 0.5f);
+        const float tiers = kTiers * v - std::floor(kTiers * v), taper = 1.0f - v;
+        const float tier = droop * (tiers < 0.75f ? 0.5f - tiers / 0.75f : 4.0f * tiers - 3.5f);
         const float t = clamp01(v), closing = std::min(1.0f, 14.0f * t);
-        const float bump = rough({c.x, t * kHeight * 0.6f, c.y}, 2.6f, 4, 471);
+        const float bump = rough({c.x, t * kHeight * 0.6f, c.y}, 2.6f, 3, 471);
         const float r = 1.75f * closing * taper * (1.0f + tier + depth * (bump - 0.5f));
         const Vec3f p{c.x * r, 0.9f + t * (kHeight - 0.9f), c.y * r};
         return SurfacePoint{p, {0, 1, 0}, {u * 4.0f, -t * kHeight}, leaf_shade(bump + tier, 0.0f)};

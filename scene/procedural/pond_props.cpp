@@ -15,8 +15,8 @@ struct Girth {
 constexpr Girth kProfile[] = {
     {0.00f, 0.000f, 0.000f}, {0.08f, 0.125f, 0.000f}, {0.20f, 0.212f, 0.105f}, {0.27f, 0.238f, 0.175f},
     {0.33f, 0.245f, 0.235f}, {0.39f, 0.236f, 0.295f}, {0.45f, 0.205f, 0.350f}, {0.50f, 0.160f, 0.390f},
-    {0.55f, 0.130f, 0.420f}, {0.60f, 0.135f, 0.450f}, {0.67f, 0.172f, 0.495f}, {0.71f, 0.165f, 0.507f},
-    {0.75f, 0.145f, 0.490f}, {0.82f, 0.108f, 0.420f}, {0.90f, 0.170f, 0.280f}, {1.00f, 0.000f, 0.080f}};
+    {0.55f, 0.130f, 0.420f}, {0.60f, 0.135f, 0.450f}, {0.67f, 0.170f, 0.483f}, {0.71f, 0.166f, 0.505f},
+    {0.75f, 0.148f, 0.503f}, {0.82f, 0.108f, 0.420f}, {0.90f, 0.170f, 0.280f}, {1.00f, 0.000f, 0.080f}};
 
 Vec2f pot_profile(float t) {
   for (std::size_t i = 1; i < std::size(kProfile); ++i) {
@@ -30,7 +30,7 @@ Vec2f pot_profile(float t) {
 }
 
 void pot(PartBuilder& b, int material, int level) {
-  turned_solid(b, material, level + 4, level < 3 ? level + 2 : 3 * level - 3, pot_profile, [](float t) {
+  turned_solid(b, material, 2 * level + 3, level < 3 ? level + 2 : 2 * level, pot_profile, [](float t) {
     return Vec3f{1, 1, 1} * (t > 0.75f ? mix(0.75f, 0.25f, (t - 0.75f) / 0.25f) : mix(0.7f, 1.0f, clamp01(t * 4.0f)));
   });
 }
@@ -67,7 +67,7 @@ void arrow(PartBuilder& b, int level) {
 }
 
 void boulder(PartBuilder& b, int level) { rock(b, kRock, level, {0, 0, 0}, {0.5f, 0.38f, 0.45f}, 1.0f, 411); }
-void slab(PartBuilder& b, int level) { rock(b, kRock, level, {0, 0, 0}, {0.6f, 0.20f, 0.48f}, 1.0f, 431); }
+void slab(PartBuilder& b, int level) { rock(b, kRock, level, {0, 0, 0}, {0.6f, 0.26f, 0.48f}, 1.0f, 431); }
 
 void jetty(PartBuilder& b, int level) {
   // From the bank at -x out over the water.

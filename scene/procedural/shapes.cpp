@@ -51,8 +51,8 @@ void rock(PartBuilder& b, int material, int level, Vec3f centre, Vec3f half, flo
       material, 2 * level + 3, level + 2,
       [&](float u, float v) {
         const Vec3f d = sphere_direction(u, v);
-        const float big = rough(d, 1.1f, 2, seed), fine = rough(d, 3.5f, 4, seed + 3);
-        const float r = 1.0f + depth * (0.9f * (big - 0.5f) + 0.35f * (fine - 0.5f));
+        const float big = rough(d * 0.5f, 2.4f, 2, seed), fine = rough(d, 3.5f, 3, seed + 3);
+        const float r = 1.0f + depth * (0.85f * (big - 0.5f) + 0.22f * (fine - 0.5f));
         const Vec3f p{d.x * half.x * r, d.y * half.y * r, d.z * half.z * r};
         const float shade = clamp01((0.62f + 0.5f * fine) * (0.85f + 0.15f * d.y));
         return SurfacePoint{centre + p, d, {u * repeats, (1.0f - v) * 0.5f * repeats}, color * shade};

@@ -36,10 +36,15 @@ void turned_solid(PartBuilder& b, int material, int around, int up, Fn&& profile
   b.surface(
       material, around, up,
       [&](float u, float v) {
-        const float reach = 0.5f / static_cast<float>(up);
-        const Vec2f c = turn(1.0f - u), p = profile(v), from = profile(std::max(0.0f, v - reach)),
-                    to = profile(std::min(1.0f, v + reach));
-        const Vec3f slope = normalize({c.x * (to.y - from.y), from.x - to.x, c.y * (to.y - from.y)});
+        const float row = 1.0f / static_cast<float>(up);
+        const Vec2f c = turn(1.0f - u), p = profile(v), before = profile(std::max(0.0f, v - row)),
+                    after = profile(std::min(1.0f, v + row));
+        // Between those of the rows on both sides.
+        const auto facing = [c](Vec2f from, Vec2f to) {
+          const Vec3f n{c.x * (to.y - from.y), from.x - to.x, c.y * (to.y - from.y)};
+          return n / std::max(length(n), 1e-9f);
+        };
+        const Vec3f slope = normalize(facing(before, p) + facing(p, after));
         const Vec3f normal = v == 0.0f ? Vec3f{0, -1, 0} : v == 1.0f ? Vec3f{0, 1, 0} : slope;
         return SurfacePoint{{c.x * p.x, p.y, c.y * p.x}, normal, {u, v}, color(v)};
       },
