@@ -11,14 +11,6 @@
 namespace shoal::app {
 namespace {
 
-std::string compiler_name() {
-#if defined(__clang__)
-  return __VERSION__;
-#else
-  return std::string("GCC ") + __VERSION__;
-#endif
-}
-
 // Kibibytes on Linux.
 double peak_rss_mb() {
   struct rusage usage {};
@@ -87,6 +79,14 @@ Json median_stages(const RunTimes& times) {
 Json json_ms(double ms) { return json_double(std::round(ms * 1e4) / 1e4); }
 
 }  // namespace
+
+std::string compiler_name() {
+#if defined(__clang__)
+  return __VERSION__;
+#else
+  return std::string("GCC ") + __VERSION__;
+#endif
+}
 
 Json json_float(float value) {
   if (!std::isfinite(value)) return nullptr;

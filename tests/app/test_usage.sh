@@ -6,8 +6,7 @@ r() { refuses 2 "$1" "$shoal" render box -o x.png --size 32x24 "${@:2}"; }
 
 # --- Commands
 refuses 2 "no command; expected one of: render" "$shoal"
-refuses 2 "command 'draw': unknown; expected one of: render, diff" "$shoal" draw
-refuses 2 "compare: has not come yet" "$shoal" compare box -o out
+refuses 2 "command 'draw': unknown; expected one of: render, compare, diff" "$shoal" draw
 refuses 2 "SCENE is required" "$shoal" render
 refuses 2 "not expected: --frobnicate" "$shoal" render box --frobnicate
 refuses 2 "not expected: extra" "$shoal" render box extra -o x.png
@@ -15,7 +14,7 @@ refuses 2 "nothing to write; expected -o" "$shoal" render box
 refuses 2 "requires|required|expected" "$shoal" render box -o
 passes "--help" "$shoal" --help
 equals "--help is on standard output alone" "0" "$(wc -c <.err)"
-for command in render diff probe scene info list; do
+for command in render compare diff probe scene info list; do
   passes "$command --help" "$shoal" $command --help
   equals "$command --help says something" "yes" "$([ "$(wc -l <.out)" -ge 4 ] && echo yes)"
 done
