@@ -29,8 +29,8 @@ __attribute__((noinline)) LayerPoint layer_point(const FrameData& f, const Layer
           clip.y * inverse_w + WideF(f.view.centre_px.y + margin), clip.z * inverse_w};
 }
 
-// Where the ray leaves the scene's box, and some pixels beyond: it is behind what lies on the very side only where it is
-// behind the depth at that pixel's centre.
+// Where the ray leaves the scene's box, and some pixels beyond: it is behind what lies on the very side only where it
+// is behind the depth at that pixel's centre.
 WideF exit_distance(const RenderScene& scene, const Ray<WideF>& ray) {
   const auto axis = [](WideF origin, WideF direction, float lo, float hi) {
     const WideF far_side = select(direction > WideF(0.0f), WideF(hi), WideF(lo)) - origin;
