@@ -29,7 +29,8 @@ __attribute__((noinline)) LayerPoint layer_point(const FrameData& f, const Layer
           clip.y * inverse_w + WideF(f.view.centre_px.y + margin), clip.z * inverse_w};
 }
 
-// Where the ray leaves the scene's box.
+// Where the ray leaves the scene's box, and some pixels beyond: it is behind what lies on the very side only where it
+// is behind the depth at that pixel's centre.
 WideF exit_distance(const RenderScene& scene, const Ray<WideF>& ray) {
   const auto axis = [](WideF origin, WideF direction, float lo, float hi) {
     const WideF far_side = select(direction > WideF(0.0f), WideF(hi), WideF(lo)) - origin;
@@ -38,7 +39,8 @@ WideF exit_distance(const RenderScene& scene, const Ray<WideF>& ray) {
   };
   const Vec3f lo = scene.bounds_min_world, hi = scene.bounds_max_world;
   const Vec3<WideF>&o = ray.origin_world, &d = ray.direction_world;
-  return min(min(axis(o.x, d.x, lo.x, hi.x), axis(o.y, d.y, lo.y, hi.y)), axis(o.z, d.z, lo.z, hi.z));
+  const WideF leaves = min(min(axis(o.x, d.x, lo.x, hi.x), axis(o.y, d.y, lo.y, hi.y)), axis(o.z, d.z, lo.z, hi.z));
+  return leaves * WideF(1.25f);
 }
 
 class March {

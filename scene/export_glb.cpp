@@ -519,7 +519,10 @@ json GlbWriter::material_json(const Material& material) {
 
 void GlbWriter::add_materials() {
   add_images();
-  for (const Material& material : scene_.materials.materials) root_["materials"].push_back(material_json(material));
+  for (const Material& material : scene_.materials.materials) {
+    json out = material_json(material);  // first: it may add keys of its own, and those move root_'s members
+    root_["materials"].push_back(std::move(out));
+  }
 }
 
 void GlbWriter::add_cameras() {

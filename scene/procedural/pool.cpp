@@ -1,8 +1,5 @@
 // `pool`: Liu et al.'s swimming pool (2020, figures 10 to 13), as a villa's garden. This file has the plan: which
-// parts, how the triangles are shared out, materials, cameras. The parts are in pool_*.cpp.
-#include <cmath>
-#include <string>
-
+// parts, materials, cameras. The parts are in pool_*.cpp.
 #include "scene/procedural/pool_parts.h"
 #include "scene/procedural/scenes.h"
 #include "scene/procedural/textures.h"
@@ -11,162 +8,71 @@ namespace shoal {
 namespace pool {
 namespace {
 
-// Copies of a part stand at these places.
-struct Copies {
-  const Vec3f* at;
-  int count;
-};
-constexpr Vec3f kColumnsAt[] = {{-9, kDeckY, -6.1f}, {-6, kDeckY, -6.1f}, {-3, kDeckY, -6.1f}, {0, kDeckY, -6.1f},
-                                {3, kDeckY, -6.1f},  {6, kDeckY, -6.1f},  {9, kDeckY, -6.1f}};
-constexpr Vec3f kLoungersAt[] = {
-    {-3.4f, kDeckY, -4.3f}, {-2.0f, kDeckY, -4.3f}, {2.0f, kDeckY, -4.3f}, {3.4f, kDeckY, -4.3f}};
-constexpr Vec3f kParasolsAt[] = {{-2.7f, kDeckY, -4.75f}, {2.7f, kDeckY, -4.75f}};
-constexpr Vec3f kPotsAt[] = {{-6.3f, kDeckY, -3.6f}, {6.3f, kDeckY, -3.6f}, {-6.3f, kDeckY, 3.6f}, {0, kDeckY, -5.2f}};
-constexpr Vec3f kCypressesAt[] = {{-12.6f, -0.1f, -7.2f}, {-12.9f, -0.1f, -3.4f},  {-12.5f, -0.1f, 0.6f},
-                                  {-12.8f, -0.1f, 4.4f},  {12.7f, -0.1f, -6.4f},   {12.9f, -0.1f, -1.2f},
-                                  {12.6f, -0.1f, 3.8f},   {-15.5f, -0.1f, -12.5f}, {-11.5f, -0.1f, -13.5f},
-                                  {11.8f, -0.1f, -13.0f}, {15.0f, -0.1f, -12.0f}};
-constexpr Vec3f kOlivesAt[] = {{-17, -0.1f, -3}, {-19.5f, -0.1f, 3}, {-22, -0.1f, -9}, {-16.5f, -0.1f, 8},
-                               {-27, 0, -2},     {-25, 0, 7},        {-31, 0, -13},    {-36, 0, 2},
-                               {-40, 0.2f, -8},  {-9, -0.1f, -17},   {1, -0.1f, -19},  {17, -0.1f, -5},
-                               {19, -0.1f, 2},   {23, -0.1f, -11}};
-constexpr Vec3f kOnce[] = {{0, 0, 0}};
-
-template <std::size_t kN>
-constexpr Copies at(const Vec3f (&places)[kN]) {
-  return {places, static_cast<int>(kN)};
-}
-
-// In order of importance: the first are always there, the others as soon as there are triangles to spare. The share is
-// of what is to be handed out; the hills are last and take what the others leave over.
-struct Part {
-  const char* name;
-  PartFn add;
-  Copies copies;
-  double share;
-  bool always;
-};
-constexpr Part kParts[] = {{"basin", basin, at(kOnce), 20, true},
-                           {"deck", deck, at(kOnce), 12, true},
-                           {"steps", steps, at(kOnce), 4, true},
-                           {"ball_1", ball<0>, at(kOnce), 3, true},
-                           {"ring_1", ring<0>, at(kOnce), 3.5, false},
-                           {"coping", coping, at(kOnce), 2, false},
-                           {"ring_2", ring<1>, at(kOnce), 3.5, false},
-                           {"ball_3", ball<2>, at(kOnce), 2.5, false},
-                           {"column", column, at(kColumnsAt), 7, false},
-                           {"arcade", arcade, at(kOnce), 4, false},
-                           {"roof", roof, at(kOnce), 8, false},
-                           {"house", house, at(kOnce), 2, false},
-                           {"ladder", ladder, at(kOnce), 3, false},
-                           {"ball_2", ball<1>, at(kOnce), 2.5, false},
-                           {"ring_3", ring<2>, at(kOnce), 3, false},
-                           {"ring_4", ring<3>, at(kOnce), 1.5, false},
-                           {"garden_walls", garden_walls, at(kOnce), 0.5, false},
-                           {"pot", pot, at(kPotsAt), 6, false},
-                           {"cypress", cypress, at(kCypressesAt), 9, false},
-                           {"hedges", hedges, at(kOnce), 5, false},
-                           {"olive", olive, at(kOlivesAt), 5, false},
-                           {"blossoms", blossoms, at(kOnce), 5, false},
-                           {"parasol", parasol, at(kParasolsAt), 3, false},
-                           {"lounger", lounger, at(kLoungersAt), 4, false},
-                           {"ball_4", ball<3>, at(kOnce), 2, false}};
-constexpr std::size_t kPartCount = std::size(kParts);
-constexpr double kHillsShare = 10;
-
-std::uint64_t count(PartFn add, int level) {
-  PartBuilder b(nullptr);
-  add(b, level);
-  return b.triangles();
-}
-
-// The finest level that costs at most `budget`; 1 where none does.
-int finest_level(PartFn add, std::uint64_t budget) {
-  int lo = 1, hi = 2;
-  while (hi < (1 << 26) && count(add, hi) <= budget) {
-    lo = hi;
-    hi *= 2;
-  }
-  while (hi - lo > 1) {
-    const int mid = lo + (hi - lo) / 2;
-    (count(add, mid) <= budget ? lo : hi) = mid;
-  }
-  return lo;
-}
-
-struct Plan {
-  int levels[kPartCount] = {};  // 0: left out
-  int hills = 1;
-};
-
-Plan make_plan(std::uint64_t triangles) {
-  Plan plan;
-  std::uint64_t left = triangles - std::min(triangles, count(hills, 1));
-  double shares = kHillsShare;
-  std::uint64_t spent_at_least = 0;
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    const Part& part = kParts[i];
-    const std::uint64_t cost = count(part.add, 1) * static_cast<std::uint64_t>(part.copies.count);
-    // A part comes when all so far can be had and half of the triangles are still free to refine them.
-    if (!part.always && 2 * (spent_at_least + cost) > left) continue;
-    spent_at_least += cost;
-    plan.levels[i] = 1;
-    shares += part.share;
-  }
-  // Every part spends its share of what is left, and passes on what it cannot use. The coarsest levels of the parts
-  // still to come are set aside.
-  std::uint64_t aside = spent_at_least;
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    if (plan.levels[i] == 0) continue;
-    const Part& part = kParts[i];
-    const auto copies = static_cast<std::uint64_t>(part.copies.count);
-    aside -= count(part.add, 1) * copies;
-    const std::uint64_t free = left > aside ? left - aside : 0;
-    const auto share = static_cast<std::uint64_t>(static_cast<double>(left) * (part.share / shares));
-    plan.levels[i] = finest_level(part.add, std::min(share, free) / copies);
-    left -= std::min(left, count(part.add, plan.levels[i]) * copies);
-    shares -= part.share;
-  }
-  plan.hills = finest_level(hills, left + count(hills, 1));
-  return plan;
-}
-
-std::int32_t add_mesh(Scene& scene, const char* name, PartFn add, int level) {
-  Mesh mesh;
-  mesh.name = name;
-  PartBuilder builder(&mesh);
-  add(builder, level);
-  scene.meshes.push_back(std::move(mesh));
-  return static_cast<std::int32_t>(scene.meshes.size()) - 1;
-}
-
-void add_parts(Scene& scene, const Plan& plan) {
-  const auto add_node = [&](std::string name, std::int32_t parent, std::int32_t mesh, Vec3f at) {
-    Node node;
-    node.name = std::move(name);
-    node.parent = parent;
-    node.mesh = mesh;
-    node.world_from_local.m[0][3] = at.x;
-    node.world_from_local.m[1][3] = at.y;
-    node.world_from_local.m[2][3] = at.z;
-    scene.nodes.push_back(std::move(node));
-  };
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    if (plan.levels[i] == 0) continue;
-    const Part& part = kParts[i];
-    const std::int32_t mesh = add_mesh(scene, part.name, part.add, plan.levels[i]);
-    if (part.copies.count == 1) {
-      add_node(part.name, kNoIndex, mesh, part.copies.at[0]);
-      continue;
-    }
-    const std::string name = part.name;
-    const auto group = static_cast<std::int32_t>(scene.nodes.size());
-    add_node(name == "cypress" ? "cypresses" : name + "s", kNoIndex, kNoIndex, {0, 0, 0});
-    for (int k = 0; k < part.copies.count; ++k) {
-      add_node(name + "_" + std::to_string(k + 1), group, mesh, part.copies.at[k]);
-    }
-  }
-  add_node("backdrop", kNoIndex, add_mesh(scene, "backdrop", hills, plan.hills), {0, 0, 0});
+// In order of importance: the first are always there, the others as soon as there are triangles to spare.
+std::vector<Part> make_parts() {
+  const std::vector<Mat4> once = placed_once();
+  const std::vector<Mat4> columns = places_at({{-9, kDeckY, -6.1f},
+                                               {-6, kDeckY, -6.1f},
+                                               {-3, kDeckY, -6.1f},
+                                               {0, kDeckY, -6.1f},
+                                               {3, kDeckY, -6.1f},
+                                               {6, kDeckY, -6.1f},
+                                               {9, kDeckY, -6.1f}});
+  const std::vector<Mat4> loungers =
+      places_at({{-3.4f, kDeckY, -4.3f}, {-2.0f, kDeckY, -4.3f}, {2.0f, kDeckY, -4.3f}, {3.4f, kDeckY, -4.3f}});
+  const std::vector<Mat4> parasols = places_at({{-2.7f, kDeckY, -4.75f}, {2.7f, kDeckY, -4.75f}});
+  const std::vector<Mat4> pots =
+      places_at({{-6.3f, kDeckY, -3.6f}, {6.3f, kDeckY, -3.6f}, {-6.3f, kDeckY, 3.6f}, {0, kDeckY, -5.2f}});
+  const std::vector<Mat4> cypresses = places_at({{-12.6f, -0.1f, -7.2f},
+                                                 {-12.9f, -0.1f, -3.4f},
+                                                 {-12.5f, -0.1f, 0.6f},
+                                                 {-12.8f, -0.1f, 4.4f},
+                                                 {12.7f, -0.1f, -6.4f},
+                                                 {12.9f, -0.1f, -1.2f},
+                                                 {12.6f, -0.1f, 3.8f},
+                                                 {-15.5f, -0.1f, -12.5f},
+                                                 {-11.5f, -0.1f, -13.5f},
+                                                 {11.8f, -0.1f, -13.0f},
+                                                 {15.0f, -0.1f, -12.0f}});
+  const std::vector<Mat4> olives = places_at({{-17, -0.1f, -3},
+                                              {-19.5f, -0.1f, 3},
+                                              {-22, -0.1f, -9},
+                                              {-16.5f, -0.1f, 8},
+                                              {-27, 0, -2},
+                                              {-25, 0, 7},
+                                              {-31, 0, -13},
+                                              {-36, 0, 2},
+                                              {-40, 0.2f, -8},
+                                              {-9, -0.1f, -17},
+                                              {1, -0.1f, -19},
+                                              {17, -0.1f, -5},
+                                              {19, -0.1f, 2},
+                                              {23, -0.1f, -11}});
+  return {{"basin", basin, once, 20, true},
+          {"deck", deck, once, 12, true},
+          {"steps", steps, once, 4, true},
+          {"ball_1", ball<0>, once, 3, true},
+          {"ring_1", ring<0>, once, 3.5, false},
+          {"coping", coping, once, 2, false},
+          {"ring_2", ring<1>, once, 3.5, false},
+          {"ball_3", ball<2>, once, 2.5, false},
+          {"column", column, columns, 7, false},
+          {"arcade", arcade, once, 4, false},
+          {"roof", roof, once, 8, false},
+          {"house", house, once, 2, false},
+          {"ladder", ladder, once, 3, false},
+          {"ball_2", ball<1>, once, 2.5, false},
+          {"ring_3", ring<2>, once, 3, false},
+          {"ring_4", ring<3>, once, 1.5, false},
+          {"garden_walls", garden_walls, once, 0.5, false},
+          {"pot", pot, pots, 6, false},
+          {"cypress", cypress, cypresses, 9, false, "cypresses"},
+          {"hedges", hedges, once, 5, false},
+          {"olive", olive, olives, 5, false},
+          {"blossoms", blossoms, once, 5, false},
+          {"parasol", parasol, parasols, 3, false},
+          {"lounger", lounger, loungers, 4, false},
+          {"ball_4", ball<3>, once, 2, false}};
 }
 
 }  // namespace
@@ -231,7 +137,8 @@ Scene make_pool(std::uint64_t triangles) {
   Scene scene;
   scene.name = "pool";
   scene.materials = pool::make_materials();
-  pool::add_parts(scene, pool::make_plan(std::max<std::uint64_t>(triangles, 1)));
+  // The hills are last and take what the others leave over.
+  add_parts(scene, pool::make_parts(), {"backdrop", pool::hills, placed_once(), 10, true}, triangles);
 
   WaterSpec water;
   water.has_size = water.has_depth = true;

@@ -2,42 +2,10 @@
 #include <cmath>
 
 #include "scene/procedural/pool_parts.h"
+#include "scene/procedural/shapes.h"
 #include "scene/procedural/textures.h"
 
 namespace shoal::pool {
-namespace {
-
-// Three-dimensional roughness from two lattices: a function of the place alone, so that touching faces agree.
-float rough(Vec3f p, float scale, int octaves, std::uint32_t seed) {
-  return 0.5f * (fractal_noise(p.x * scale + 3.1f * p.y, p.z * scale - 2.3f * p.y, 0, octaves, seed) +
-                 fractal_noise(p.y * scale + 1.7f * p.x, p.x * scale + 2.9f * p.z, 0, octaves, seed + 7));
-}
-
-// Leaves are brighter outside and above, darker in the hollows.
-Vec3f leaf_shade(float bump, float upward) {
-  return Vec3f{1, 1, 1} * clamp01(0.55f + 0.40f * clamp01(bump * 1.3f) + 0.10f * upward);
-}
-
-void leafy_ball(PartBuilder& b, int material, int level, Vec3f centre, float radius) {
-  // A coarse ball is kept smooth: its few faces could not follow the leaves.
-  const float depth = 0.36f * std::min(1.0f, static_cast<float>(level) / 6.0f);
-  b.surface(
-      material, 2 * level + 2, level + 2,
-      [&](float u, float v) {
-        const Vec2f a = turn(1.0f - u), e = turn(0.5f * v - 0.25f);
-        const float ring = v == 0.0f || v == 1.0f ? 0.0f : e.x;
-        const Vec3f d{ring * a.x, v == 0.0f ? -1.0f : (v == 1.0f ? 1.0f : e.y), ring * a.y};
-        const float bump = rough(d * radius + centre, 9.0f / std::sqrt(radius / 0.44f), 3, 201);
-        return SurfacePoint{centre + d * (radius * (1.0f + depth * (bump - 0.5f))),
-                            d,
-                            {u * 5.0f * radius, v * 2.5f * radius},
-                            leaf_shade(bump, d.y)};
-      },
-      Normals::kSmooth, Poles::kBoth);
-}
-
-}  // namespace
-
 void pot(PartBuilder& b, int level) {
   const auto profile = [](float t) {
     if (t >= 1.0f) return Vec2f{0.0f, 0.52f};  // the soil
@@ -110,9 +78,7 @@ void blossoms(PartBuilder& b, int level) {
   int n = 0;
   for (const Vine& vine : kVines) {
     for (int k = 0; k < vine.tufts; ++k, ++n) {
-      const auto random = [n](std::uint32_t which) {
-        return static_cast<float>(hash_lattice(n, 0, 240 + which) >> 8) * (1.0f / 16777216.0f);
-      };
+      const auto random = [n](std::uint32_t which) { return random_unit(n, 0, 240 + which); };
       const float along = (static_cast<float>(k) + random(0)) / static_cast<float>(vine.tufts);
       const Vec3f aside{random(1) - 0.5f, random(2) - 0.5f, 0.6f * (random(3) - 0.5f)};
       const Vec3f at = mix(vine.from, vine.to, along) + aside * (2.0f * vine.spread);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/procedural/mesh_builder.h"
+#include "scene/procedural/part_plan.h"
 
 namespace shoal::pool {
 
@@ -47,8 +48,6 @@ enum Mat : int {
 };
 
 Materials make_materials();
-
-using PartFn = void (*)(PartBuilder& b, int level);
 
 void basin(PartBuilder& b, int level);
 void steps(PartBuilder& b, int level);

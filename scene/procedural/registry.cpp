@@ -55,7 +55,12 @@ const std::vector<ProceduralScene>& procedural_scenes() {
   static const std::vector<ProceduralScene> scenes = {
       {"pool", "a villa's swimming pool: tiles, steps, ladder, balls and rings, half and fully under water", make_pool,
        128000},
-      {"box", "a small open basin with boxes and balls through the water, for tests", make_box, 1000}};
+      {"box", "a small open basin with boxes and balls through the water, for tests", make_box, 1000},
+      {"ball", "Li et al.'s green ball of 39936 triangles over Perlin water", make_ball, 39936},
+      {"knot", "a studded torus knot over Perlin water, as large as Li et al.'s dragon", make_knot, 2400000},
+      {"furnace", "all is white, so every pixel of every method must be: conservation of light", make_furnace, 1000},
+      {"tank", "an aquarium seen through its side: an upright plane of water and a level one", make_tank, 64000},
+      {"pond", "Steel's pond: 128 pots and arrows in a bowl with a shore, in a meadow", make_pond, 128000}};
   return scenes;
 }
 

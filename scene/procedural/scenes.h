@@ -7,6 +7,11 @@ namespace shoal {
 
 Scene make_pool(std::uint64_t triangles);
 Scene make_box(std::uint64_t triangles);
+Scene make_ball(std::uint64_t triangles);
+Scene make_knot(std::uint64_t triangles);
+Scene make_furnace(std::uint64_t triangles);
+Scene make_tank(std::uint64_t triangles);
+Scene make_pond(std::uint64_t triangles);
 
 // A node at `at`, looking along its -z at `target`, with +y as near to up as can be.
 //   yfov  radians

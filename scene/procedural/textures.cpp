@@ -3,60 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
-#include "core/vec.h"
+#include "scene/procedural/texture_paint.h"
 
 namespace shoal {
+using namespace paint;
 namespace {
-
-// Colours here are sRGB, 0 to 1: textures are painted as one sees them.
-float clamp_unit(float x) { return std::min(1.0f, std::max(0.0f, x)); }
-float lerp(float a, float b, float t) { return a + (b - a) * t; }
-Vec3f lerp(Vec3f a, Vec3f b, float t) { return a + (b - a) * t; }
-float ramp(float lo, float hi, float x) {
-  const float t = clamp_unit((x - lo) / (hi - lo));
-  return t * t * (3.0f - 2.0f * t);
-}
-
-// Paints every texel with paint(u, v), u and v in [0, 1).
-template <class Fn>
-Texture paint_texture(int width, int height, Fn&& paint) {
-  std::vector<std::uint8_t> texels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
-  std::size_t at = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(width);
-      const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(height);
-      const Vec3f c = paint(u, v);
-      for (const float channel : {c.x, c.y, c.z}) {
-        texels[at++] = static_cast<std::uint8_t>(clamp_unit(channel) * 255.0f + 0.5f);
-      }
-      texels[at++] = 255;
-    }
-  }
-  return make_texture_rgba8(width, height, texels.data(), true);
-}
-
-float unit_hash(int x, int y, std::uint32_t seed) {
-  return static_cast<float>(hash_lattice(x, y, seed) >> 8) * (1.0f / 16777216.0f);
-}
-
-// A cell of a lattice of tiles: which one, and how far inside its nearest edge (in cells, 0 to 0.5).
-struct Tile {
-  int column, row;
-  float x, y, edge;
-};
-Tile find_tile(float x, float y, float stagger = 0.0f) {
-  Tile t;
-  t.row = static_cast<int>(std::floor(y));
-  x += stagger * static_cast<float>(t.row & 1);
-  t.column = static_cast<int>(std::floor(x));
-  t.x = x - std::floor(x);
-  t.y = y - std::floor(y);
-  t.edge = std::min(std::min(t.x, 1.0f - t.x), std::min(t.y, 1.0f - t.y));
-  return t;
-}
 
 // Glazed tiles: each its own shade between three colours, darker towards its rim, in pale grout.
 Texture make_mosaic(int size, const std::array<Vec3f, 3>& shades, Vec3f grout, std::uint32_t seed) {

@@ -31,5 +31,14 @@ Texture make_beach_ball();       // once around u: six gores, caps at v = 0 and 
 Texture make_ring_stripes();     // once around u: eight stripes
 Texture make_awning();           // once around u: sixteen stripes
 Texture make_ripple_marble();    // 1.2 m: veined white stone
+Texture make_checker();          // 2 m: 4 x 4 stone slabs, pale and slate in turn
+Texture make_gravel();           // 0.5 m (of a tank): 24 x 24 pebbles
+Texture make_rock();             // 1 m: grey stone with lichen
+Texture make_fish_bands();       // u once around, v from tail to nose: white bands on orange
+Texture make_fish_flank();       // the same: blue with a dark sweep
+Texture make_dirt();             // 2 m: earth with drifts of pebbles
+Texture make_verge();            // 1.7 m along u; from earth at v = 0 to grass at v = 1
+Texture make_blue_glaze();       // of a pot: u once around, v from its foot over the lip to its inside
+Texture make_green_glaze();
 
 }  // namespace shoal

@@ -46,6 +46,14 @@ limited() { (ulimit -f 1; "$@"); }
 refuses 1 "again.glb: cannot be written" limited "$shoal" scene box -o again.glb --triangles 2000
 equals "the earlier file is whole" "same" "$(cmp box.glb again.glb && echo same)"
 
+# Every built-in scene, moving water and materials with extensions included.
+for name in $("$shoal" list scenes | awk '{print $1}'); do
+  passes "scene $name" "$shoal" scene $name --triangles 3000 -o $name.glb
+  "$shoal" render $name -o built-in.png $small --triangles 3000 --time 0.5
+  passes "render $name.glb" "$shoal" render $name.glb -o file.png $small --time 0.5
+  equals "$name: the same picture" "same" "$(cmp built-in.png file.png && echo same)"
+done
+
 # --- Broken files: exit 1, one line that begins with the file
 bad() { refuses 1 "^shoal: error: $1: .+; expected" "$shoal" render "$1" -o bad.png $small; refuses 1 "$1" "$shoal" info "$1"; }
 bad none.glb
