@@ -63,6 +63,16 @@ struct LitBuffer {
   AlignedArray<float> red, green, blue, alpha;
 };
 
+// Light and world position by pixel: the refracted layer as it is lit, and what water pixels took from it. Empty unless
+// the method shades before.
+struct LitPoints {
+  AlignedArray<float> red, green, blue;           // linear
+  AlignedArray<float> x_world, y_world, z_world;  // of the point; 0 where there is none
+  void resize(const FrameGrid& g) {
+    for (auto* plane : {&red, &green, &blue, &x_world, &y_world, &z_world}) plane->resize(g.pixel_slots());
+  }
+};
+
 // Bins of one pass: one item a run of chunks.
 struct PassBins {
   std::vector<BinItem> items;
@@ -106,6 +116,7 @@ struct WaterPass {
   Frustum frustum;         // of the region's bounds
   PassSettings pass;
   bool mirrored = false;  // this is the mirrored pass of the two
+  bool looks_far = false;  // the narrow phase may look anywhere in the frame
   bool mirrors = false;   // the surface shows the scene on the eye's own side, not the background alone
 };
 
@@ -155,6 +166,8 @@ struct FrameData {
   std::vector<std::uint8_t> region_of_body;  // [regions] this pass's region, 64-pixel cells
   std::vector<std::uint8_t> tile_active;     // [tiles] tiles that the region touches
   std::vector<WaterPass> water;              // one a body, whether it shows or not
+  LitPoints layer;    // the refracted layer, before absorption
+  LitPoints fetched;  // what each water pixel took from it, absorbed; the points only where they are captured
   HitBuffers hits;
   HitPoints hit_points;
   GBuffer gbuffer;

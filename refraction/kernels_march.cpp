@@ -1,5 +1,6 @@
 // Narrow phase under waves (refraction/narrow/march_hit.h).
 #include "refraction/narrow/march_hit.h"
+#include "refraction/narrow/triangle_plane.h"
 #include "refraction/pixel_stage.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
@@ -38,20 +39,6 @@ WideF exit_distance(const RenderScene& scene, const Ray<WideF>& ray) {
   const Vec3f lo = scene.bounds_min_world, hi = scene.bounds_max_world;
   const Vec3<WideF>&o = ray.origin_world, &d = ray.direction_world;
   return min(min(axis(o.x, d.x, lo.x, hi.x), axis(o.y, d.y, lo.y, hi.y)), axis(o.z, d.z, lo.z, hi.z));
-}
-
-// Where the ray meets the planes of some triangles; -1 where it does not.
-WideF plane_distance(const GeometryView& g, const Ray<WideF>& ray, WideI id, WideM lanes) {
-  WideF t(-1.0f);
-  for_each_distinct(id, lanes, [&](std::int32_t one, WideM same) SHOAL_LAMBDA {
-    const Geometry::TriangleRecord& r = g.triangles[one];
-    const Vec3f a = g.vertices[r.vertex[0]].position_world;
-    const Vec3f e1 = g.vertices[r.vertex[1]].position_world - a, e2 = g.vertices[r.vertex[2]].position_world - a;
-    const TriangleHit<WideF> hit =
-        intersect_triangle(ray, broadcast<WideF>(a), broadcast<WideF>(e1), broadcast<WideF>(e2));
-    t = select(same & hit.valid, hit.t, t);
-  });
-  return t;
 }
 
 class March {
@@ -125,7 +112,7 @@ WideI march_hit(const FrameData& f, const Layer& layer, const Ray<WideF>& ray, W
   const WideF end = exit_distance(*f.scene, ray);
   // The way bends most evenly in two parts, at about where the ray will meet something.
   const WideM drawn = lanes & is_triangle(own);
-  WideF middle = any(drawn) ? plane_distance(f.geometry, ray, own, drawn) : WideF(-1.0f);
+  WideF middle = any(drawn) ? triangle_plane_distance(f.geometry, ray, own, drawn) : WideF(-1.0f);
   middle = select((middle > WideF(0.0f)) & (middle < end), middle, end * WideF(0.25f));
   const LayerPoint start = layer_point(f, layer, ray, WideF(0.0f));
   const LayerPoint between = layer_point(f, layer, ray, middle);

@@ -143,6 +143,7 @@ struct Renderer::Impl {
       f.refracted.resize(f.grid);
       f.mirrored.resize(f.grid);
       f.hits.resize(f.grid);
+      if (method.kernels.light_layer != nullptr) f.layer.resize(f.grid), f.fetched.resize(f.grid);
     }
     if (captures()) {
       for (auto& plane : f.gbuffer.plane) plane.resize(f.grid.pixel_slots());

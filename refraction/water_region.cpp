@@ -12,6 +12,8 @@ namespace {
 
 // Geometry is clipped this far beyond the plane, so that no seam opens between direct and refracted edges.
 constexpr float kOverlap_m = 0.02f;
+// Beyond any scene: nothing is clipped.
+constexpr float kEverything_m = 1e30f;
 
 // Seen along the normal, is p inside of the triangle (either orientation)?
 bool inside_triangle(Vec3f p, Vec3f a, Vec3f b, Vec3f c, Vec3f normal) {
@@ -45,6 +47,8 @@ void place_water(FrameData& f, const MethodKernels& method) {
     const WaterSide side = eye_side(w.optics);
     w.mirrors = f.settings.reflections == Reflections::kScene || always_mirrors(w.optics.eye_below, side.eta);
     w.keep = {w.map.far_normal, kOverlap_m - dot(w.map.far_normal, w.map.plane_origin)};
+    if (method.whole_scene) w.keep.offset_m = kEverything_m;
+    w.looks_far = w.surface != nullptr || method.light_layer != nullptr;
     if (f.eye_in_water < 0 && contains(bodies[b], f.view.camera.position_world)) f.eye_in_water = w.index;
   }
 }
@@ -78,8 +82,8 @@ bool find_region(FrameData& f, const FrameKernels& kernels, WaterPass& water, Th
           x0 = std::min(x0, i), y0 = std::min(y0, j), x1 = std::max(x1, i), y1 = std::max(y1, j);
         }
     }
-  // Rays that waves bend look farther.
-  if (water.surface != nullptr) {
+  // Rays that waves bend look farther, and so does what looks into a lit layer.
+  if (water.looks_far) {
     std::fill(region.begin(), region.end(), std::uint8_t{1});
     x0 = y0 = 0, x1 = nx - 1, y1 = ny - 1;
   }
