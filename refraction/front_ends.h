@@ -14,13 +14,13 @@ SHOAL_INLINE void opaque_item(FrameData& f, const Program& program, const PassSe
 }
 
 // The same of the blended chunks.
-//   in_region  only the 64-pixel cells of the body's region are drawn
+//   in_region  a water pass: into the layers' tiles, where they are drawn
 template <class Program>
 void blended_item(FrameData& f, const Program& program, const PassSettings& like, bool in_region, std::size_t item) {
   PassSettings pass = like;
   pass.skip_blended = false;
-  pass.grid = f.blended.grid;
-  pass.tile_active = in_region ? f.region_of_body.data() : nullptr;
+  pass.grid = in_region ? f.layers.regions : f.blended.grid;
+  pass.tile_active = in_region ? f.layer_regions.data() : nullptr;
   PassBins& bins = f.blended.bins;
   const std::uint32_t first = static_cast<std::uint32_t>(item) * bins.chunks_per_item;
   const std::uint32_t left = bins.chunk_count - first;

@@ -30,7 +30,8 @@ SHOAL_INLINE WideF height_over(const WaterBody& body, Vec3<WideF> p) {
 }
 
 void light_block(FrameData& f, const WaterPass& water, const Block& block, bool whole_scene) {
-  const WideI id = WideI::load(f.refracted.id.data() + block.offset);
+  const std::size_t drawn_at = f.layers.offset(block.x_px, block.y_px);
+  const WideI id = WideI::load(f.refracted.id.data() + drawn_at);
   const LayerRays along = layer_rays(f, water, block, whole_scene);
   const WideM drawn = is_triangle(id) & block.in_frame;
   const Vec3<WideF> zero = broadcast<WideF>(Vec3f{0, 0, 0});
@@ -40,7 +41,7 @@ void light_block(FrameData& f, const WaterPass& water, const Block& block, bool 
   // In the water or out of it: of a whole scene both sides show.
   WideM wet = water.optics.eye_below ? mask_from_bits(0) : drawn;
   if (whole_scene && any(drawn)) {
-    const WideF depth_m = view_depth_m(f.view, select(drawn, WideF::load(f.refracted.depth.data() + block.offset),
+    const WideF depth_m = view_depth_m(f.view, select(drawn, WideF::load(f.refracted.depth.data() + drawn_at),
                                                       WideF(1.0f)));
     wet = drawn & (height_over(*water.body, along.ray.origin_world + along.ray.direction_world * depth_m) < WideF(0.0f));
   }
@@ -117,8 +118,10 @@ void fetch_layer(FrameData& f, const WaterPass& water, const Block& block, const
   for (int k = 0; k < 4; ++k) {
     Tap& tap = taps[k];
     tap.weight = ((k & 1) != 0 ? fx : one - fx) * ((k & 2) != 0 ? fy : one - fy);
-    tap.slot = pixel_slots(grid, (k & 1) != 0 ? x1 : x0, (k & 2) != 0 ? y1 : y0);
-    tap.id = gather(f.refracted.id.data(), tap.slot, lanes, WideI(kNoId));
+    const WideI tap_x = (k & 1) != 0 ? x1 : x0, tap_y = (k & 2) != 0 ? y1 : y0, margin(f.layers.margin_px);
+    tap.slot = pixel_slots(grid, tap_x, tap_y);
+    const WideI drawn_at = pixel_slots(f.layers.grid, tap_x + margin, tap_y + margin);
+    tap.id = gather(f.refracted.id.data(), drawn_at, lanes, WideI(kNoId));
     tap.hit = lanes & is_triangle(tap.id);
     const auto texel = [&](const AlignedArray<float>& p, const AlignedArray<float>& q, const AlignedArray<float>& r) {
       return Vec3<WideF>{gather(p.data(), tap.slot, lanes, zero), gather(q.data(), tap.slot, lanes, zero),

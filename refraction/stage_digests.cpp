@@ -55,19 +55,19 @@ void StageDigests::direct(const FrameData& f) {
 }
 
 void StageDigests::refracted(const FrameData& f) {
-  add_rows(stage("visibility.refracted"), f.grid, f.refracted.id, &f.region_of_body);
-  add_rows(stage("depth.refracted"), f.grid, f.refracted.depth, &f.region_of_body);
+  add_rows(stage("visibility.refracted"), f.layers.grid, f.refracted.id, &f.layer_regions);
+  add_rows(stage("depth.refracted"), f.layers.grid, f.refracted.depth, &f.layer_regions);
 }
 
 void StageDigests::reflected(const FrameData& f) {
-  add_rows(stage("visibility.reflected"), f.grid, f.mirrored.id, &f.region_of_body);
-  add_rows(stage("depth.reflected"), f.grid, f.mirrored.depth, &f.region_of_body);
+  add_rows(stage("visibility.reflected"), f.layers.grid, f.mirrored.id, &f.layer_regions);
+  add_rows(stage("depth.reflected"), f.layers.grid, f.mirrored.depth, &f.layer_regions);
 }
 
 void StageDigests::layer(const FrameData& f) {
   const LitPoints& l = f.layer;
   for (const auto* plane : {&l.red, &l.green, &l.blue, &l.x_world, &l.y_world, &l.z_world})
-    add_rows(stage("layer"), f.grid, *plane, &f.region_of_body);
+    add_rows(stage("layer"), f.grid, *plane, nullptr);
 }
 
 void StageDigests::blended(const FrameData& f) {

@@ -46,8 +46,9 @@ SHOAL_INLINE WaterRays<F> straight_rays(const WaterPass& water, Ray<F> view_ray,
 SHOAL_INLINE void narrow_mirrored(FrameData& f, const WaterPass& water, const Block& block,
                                   const Ray<WideF>& reflected, WideM here) {
   if (!water.mirrors) return;
-  const WideI x = WideI(block.x_px) + block_x(), y = WideI(block.y_px) + block_y();
-  const WideI mirrored = WideI::load(f.mirrored.id.data() + block.offset);
+  const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),
+              y = WideI(block.y_px + f.layers.margin_px) + block_y();
+  const WideI mirrored = WideI::load(f.mirrored.id.data() + f.layers.offset(block.x_px, block.y_px));
   const WideI id = water.surface != nullptr
                        ? march_hit(f, Layer{f.mirrored, water, true}, reflected, mirrored, here)
                        : confirm_hit(f.geometry, f.mirrored, reflected, mirrored, x, y, here).id;
@@ -74,8 +75,10 @@ struct MethodStages {
           (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
       if (none(here)) return;
       const WaterRays<WideF> rays = M::template rays<WideF>(water, block_rays(f.view, block), differential);
-      const WideI x = WideI(block.x_px) + block_x(), y = WideI(block.y_px) + block_y();
-      const WideI own = WideI::load(f.refracted.id.data() + block.offset);
+      const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),
+                  y = WideI(block.y_px + f.layers.margin_px) + block_y();
+      const std::size_t at = f.layers.offset(block.x_px, block.y_px);
+      const WideI own = WideI::load(f.refracted.id.data() + at);
       const WideM through = here & rays.at_surface.transmitted;
       const bool bent = water.surface != nullptr && M::kFollowsWaves;
       const WideI id = bent ? march_hit(f, Layer{f.refracted, water, false}, rays.refracted, own, through)

@@ -13,7 +13,7 @@ constexpr float kOpen_m = 1e4f;
 // pixel itself; where the ray goes along that plane or away from it, the distance of the point shown.
 SHOAL_INLINE WideF plane_look(const LookUp& l, const Ray<WideF>& ray) {
   const std::size_t offset = l.block.offset;
-  const WideI own = WideI::load(l.f.refracted.id.data() + offset);
+  const WideI own = WideI::load(l.f.refracted.id.data() + l.f.layers.offset(l.block.x_px, l.block.y_px));
   const WideM drawn = l.lanes & is_triangle(own);
   if (none(drawn)) return WideF(kOpen_m);
   const LitPoints& layer = l.f.layer;
