@@ -41,9 +41,10 @@ void light_block(FrameData& f, const WaterPass& water, const Block& block, bool 
   // In the water or out of it: of a whole scene both sides show.
   WideM wet = water.optics.eye_below ? mask_from_bits(0) : drawn;
   if (whole_scene && any(drawn)) {
-    const WideF depth_m = view_depth_m(f.view, select(drawn, WideF::load(f.refracted.depth.data() + drawn_at),
-                                                      WideF(1.0f)));
-    wet = drawn & (height_over(*water.body, along.ray.origin_world + along.ray.direction_world * depth_m) < WideF(0.0f));
+    const WideF depth_m =
+        view_depth_m(f.view, select(drawn, WideF::load(f.refracted.depth.data() + drawn_at), WideF(1.0f)));
+    wet =
+        drawn & (height_over(*water.body, along.ray.origin_world + along.ray.direction_world * depth_m) < WideF(0.0f));
   }
   for (const bool in_water : {true, false}) {
     const WideM lanes = in_water ? wet : drawn & !wet;
@@ -78,8 +79,8 @@ std::size_t drawable_of(const Geometry& g, std::int32_t id) {
 
 // Lanes all of whose texels are of one drawable.
 WideM one_drawable(const Geometry& g, const Tap (&taps)[4], WideM lanes) {
-  const WideM same_triangle = lanes & taps[0].hit & (taps[0].id == taps[1].id) & (taps[0].id == taps[2].id) &
-                              (taps[0].id == taps[3].id);
+  const WideM same_triangle =
+      lanes & taps[0].hit & (taps[0].id == taps[1].id) & (taps[0].id == taps[2].id) & (taps[0].id == taps[3].id);
   std::uint32_t bits = to_bits(same_triangle);
   std::uint32_t open = to_bits(lanes & !same_triangle & taps[0].hit & taps[1].hit & taps[2].hit & taps[3].hit);
   for (; open != 0; open &= open - 1) {

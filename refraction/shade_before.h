@@ -8,6 +8,8 @@
 //     template <class F> static WaterRays<F> rays(const WaterPass&, Ray<F> view_ray, RayDifferential<F>);
 //     static LayerPlace look(const LookUp&);                        // where each water pixel looks in the layer
 //     struct Map { ... };                                           // if its map is no BroadPhase: MappedProgram's
+//     // If the surface is to mirror something else than its true ray shows:
+//     static void mirror(const FrameData&, const WaterPass&, const Block&, WaterRays<WideF>&);
 //   };
 //
 // ShadeBeforeStages<MyMethod>::kernels() makes the frame's stages of it. Surface, reflection, Fresnel, absorption and
@@ -74,7 +76,8 @@ struct ShadeBeforeStages {
           (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
       if (none(here)) return;
       const Ray<WideF> view_ray = block_rays(f.view, block);
-      const WaterRays<WideF> rays = M::template rays<WideF>(water, view_ray, differential);
+      WaterRays<WideF> rays = M::template rays<WideF>(water, view_ray, differential);
+      if constexpr (MirrorsItsWay<M>) M::mirror(f, water, block, rays);
       const WideM through = here & rays.at_surface.transmitted;
       if (any(through)) {
         const LayerPlace place = M::look(LookUp{f, water, block, view_ray, rays.at_surface, through});
@@ -84,14 +87,16 @@ struct ShadeBeforeStages {
     });
   }
 
-  static void refracted_front_end(FrameData& f, const WaterPass& water, std::size_t item)
-    requires requires { typename M::Map; }
+  static void refracted_front_end(FrameData& f, const WaterPass& water, std::size_t item) requires requires {
+    typename M::Map;
+  }
   {
     const typename M::Map map(f, water);
     opaque_item(f, MappedProgram<typename M::Map>{{water, f.view}, map, map.splits()}, water.pass, item);
   }
-  static void blended_front_end(FrameData& f, const WaterPass& water, std::size_t item)
-    requires requires { typename M::Map; }
+  static void blended_front_end(FrameData& f, const WaterPass& water, std::size_t item) requires requires {
+    typename M::Map;
+  }
   {
     const typename M::Map map(f, water);
     blended_item(f, MappedProgram<typename M::Map>{{water, f.view}, map, map.splits()}, water.pass, true, item);

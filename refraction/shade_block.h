@@ -80,6 +80,11 @@ SHOAL_INLINE Vec3<WideF> look(const FrameData& f, const WaterPass& water, const 
 // A method that looks into the lit layer (refraction/shade_before.h) says so.
 template <class M>
 concept ShadesBefore = M::kShadesBefore;
+// And one that mirrors other rays than the true ones.
+template <class M>
+concept MirrorsItsWay = requires {
+  &M::mirror;
+};
 
 // What the narrow phase took from the lit layer.
 SHOAL_INLINE Vec3<WideF> show_fetched(FrameData& f, const Block& block, const WaterPass& water, WideM through) {
@@ -102,7 +107,8 @@ template <class M>
 __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, const WaterPass& water,
                                            const Ray<WideF>& ray, WideM lanes, BlockColor& out) {
   const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
-  const WaterRays<WideF> r = M::template rays<WideF>(water, ray, differential);
+  WaterRays<WideF> r = M::template rays<WideF>(water, ray, differential);
+  if constexpr (MirrorsItsWay<M>) M::mirror(f, water, block, r);
   const ExactRay<WideF>& at = r.at_surface;
   const bool eye_below = water.optics.eye_below;
   const WideM through = lanes & at.transmitted;

@@ -43,15 +43,14 @@ SHOAL_INLINE WaterRays<F> straight_rays(const WaterPass& water, Ray<F> view_ray,
 }
 
 // What the surface mirrors, found as every method finds it: by the true reflected ray.
-SHOAL_INLINE void narrow_mirrored(FrameData& f, const WaterPass& water, const Block& block,
-                                  const Ray<WideF>& reflected, WideM here) {
+SHOAL_INLINE void narrow_mirrored(FrameData& f, const WaterPass& water, const Block& block, const Ray<WideF>& reflected,
+                                  WideM here) {
   if (!water.mirrors) return;
   const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),
               y = WideI(block.y_px + f.layers.margin_px) + block_y();
   const WideI mirrored = WideI::load(f.mirrored.id.data() + f.layers.offset(block.x_px, block.y_px));
-  const WideI id = water.surface != nullptr
-                       ? march_hit(f, Layer{f.mirrored, water, true}, reflected, mirrored, here)
-                       : confirm_hit(f.geometry, f.mirrored, reflected, mirrored, x, y, here).id;
+  const WideI id = water.surface != nullptr ? march_hit(f, Layer{f.mirrored, water, true}, reflected, mirrored, here)
+                                            : confirm_hit(f.geometry, f.mirrored, reflected, mirrored, x, y, here).id;
   store_masked(f.hits.mirrored_id.data() + block.offset, id, here);
 }
 

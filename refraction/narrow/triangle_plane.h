@@ -5,10 +5,11 @@
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-// Where each ray meets the plane of a triangle, in its direction's lengths; negative behind its origin, -1 where it does
-// not.
+// Where each ray meets the plane of a triangle, in its direction's lengths; negative behind its origin, -1 where it
+// does not.
 //   id  of the triangles; lanes: which of them are
-__attribute__((noinline)) inline WideF triangle_plane_distance(const GeometryView& g, const Ray<WideF>& ray, WideI id, WideM lanes) {
+__attribute__((noinline)) inline WideF triangle_plane_distance(const GeometryView& g, const Ray<WideF>& ray, WideI id,
+                                                               WideM lanes) {
   WideF t(-1.0f);
   for_each_distinct(id, lanes, [&](std::int32_t one, WideM same) SHOAL_LAMBDA {
     const Geometry::TriangleRecord& r = g.triangles[one];
