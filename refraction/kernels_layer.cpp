@@ -156,6 +156,8 @@ void fetch_layer(FrameData& f, const WaterPass& water, const Block& block, const
   shade_detail::put3(out.red, out.green, out.blue, block.offset, lit + open, lanes);
   store_masked(f.hits.refracted_id.data() + block.offset, nearest_id, lanes);
   if (!f.capture) return;
+  const WideM inside = (place.x_px >= zero) & (place.y_px >= zero) & (place.x_px <= width) & (place.y_px <= height);
+  store_masked(out.outside.data() + block.offset, select(inside, WideI(0), WideI(1)), lanes);
   const Vec3<WideF> shown = select<WideF>(one_drawable(f.scene->geometry, taps, lanes), mixed, nearest);
   shade_detail::put3(out.x_world, out.y_world, out.z_world, block.offset, shown, lanes);
 }

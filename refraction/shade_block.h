@@ -47,6 +47,7 @@ SHOAL_INLINE void capture_clear(FrameData& f, const Block& block) {
   const Vec3<WideF> zero = broadcast<WideF>(Vec3f{0, 0, 0});
   capture_surface(f, block, {zero, zero, zero, WideF(0.0f), WideF(0.0f), WideF(0.0f), zero}, every);
   capture_hits(f, block, zero, zero, WideI(kNoId), HitKind::kNoWater, every);
+  WideI(0).store(f.hit_points.outside.data() + block.offset);
 }
 }  // namespace shade_detail
 
@@ -98,8 +99,10 @@ SHOAL_INLINE Vec3<WideF> show_fetched(FrameData& f, const Block& block, const Wa
     const Vec3<WideF> p = load3(at.x_world, at.y_world, at.z_world);
     shade_detail::capture_hits(f, block, p, virtual_position(water.optics, p), shown, HitKind::kSurface,
                                through & is_triangle(shown));
+    store_masked(f.hit_points.outside.data() + block.offset, WideI::load(at.outside.data() + block.offset), through);
   }
-  return load3(at.red, at.green, at.blue);
+  // The other lanes' slots hold anything.
+  return select<WideF>(through, load3(at.red, at.green, at.blue), broadcast<WideF>(Vec3f{0, 0, 0}));
 }
 
 // The lanes of a block that show one body's surface.
