@@ -59,7 +59,7 @@ void run_confirm(const FrameData& f, bool by_neighbours, std::size_t region, std
     const WideI x = WideI(block.x_px) + block_x(), y = WideI(block.y_px) + block_y();
     const WideM lanes = is_triangle(shown) & block.in_frame;
     if (none(lanes)) return;
-    last = last ^ confirm_hit(f.geometry, f.direct, block_rays(f.view, block), own, x, y, lanes);
+    last = last ^ confirm_hit(f.geometry, f.direct, block_rays(f.view, block), own, x, y, lanes).id;
   });
   last.store(out);
 }

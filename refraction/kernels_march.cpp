@@ -44,8 +44,8 @@ WideF exit_distance(const RenderScene& scene, const Ray<WideF>& ray) {
 
 class March {
  public:
-  March(const FrameData& frame, const Layer& seen, const Ray<WideF>& along, WideM lanes)
-      : f(frame), layer(seen), ray(along), open(lanes) {}
+  March(const FrameData& frame, const Layer& through, const Ray<WideF>& along, WideM lanes)
+      : f(frame), layer(through), ray(along), open(lanes) {}
 
   // Follows the open lanes from one point of the layer to another.
   void advance(const LayerPoint& from, const LayerPoint& to) {
@@ -62,10 +62,7 @@ class March {
     }
   }
 
-  WideI result() const {
-    const WideM drawn = is_triangle(last_seen);
-    return select(!open, found, select(hidden, select(drawn, last_seen, hider), WideI(kNoId)));
-  }
+  WideI result() const { return select(!open, found, select(hidden, select(seen, last_seen, hider), WideI(kNoId))); }
   WideM unfinished() const { return open; }
   WideI found = WideI(kNoId);
 
@@ -88,12 +85,39 @@ class March {
       const ConfirmedHit hit = confirm_hit(f.geometry, layer.visibility, ray, id, x_px, y_px, entered);
       const WideM met = entered & hit.held;
       found = select(met, hit.id, found);
+      if (any(met)) occluders(x_px, y_px, drawn, met);
       hider = select(entered, id, hider);
       open = open & !met;
     }
     if (any(in_front)) {
       const WideI id = gather(layer.visibility.id.data(), slots, in_front, WideI(kNoId));
       last_seen = select(in_front, id, last_seen);
+      seen = seen | in_front;
+    }
+  }
+
+  // Edges are drawn where pixels' centres say: of what is met, a neighbour may show something nearer that the ray meets
+  // first.
+  void occluders(WideI x_px, WideI y_px, WideF drawn, WideM met) {
+    constexpr float kNearer = 1.001f;
+    const FrameGrid& grid = layer.visibility.grid;
+    const WideI x_last(grid.width_px - 1), y_last(grid.height_px - 1);
+    WideF found_t(-1.0f);
+    for (int i = 0; i < 9; ++i) {
+      if (i == 4) continue;
+      const WideI x = min(max(x_px + WideI(i % 3 - 1), WideI(0)), x_last);
+      const WideI y = min(max(y_px + WideI(i / 3 - 1), WideI(0)), y_last);
+      const WideI slots = pixel_slots(grid, x, y);
+      const WideF depth = gather(layer.visibility.depth.data(), slots, met, WideF(0.0f));
+      const WideM nearer = met & (depth > drawn * WideF(kNearer));
+      if (none(nearer)) continue;
+      const WideI id = gather(layer.visibility.id.data(), slots, nearer, WideI(kNoId));
+      const TriangleTest test = test_triangles(f.geometry, ray, id, nearer & (id != found));
+      if (none(test.inside)) continue;
+      if (all(found_t == WideF(-1.0f))) found_t = test_triangles(f.geometry, ray, found, met).t;
+      const WideM first = test.inside & (test.t < found_t);
+      found = select(first, id, found);
+      found_t = select(first, test.t, found_t);
     }
   }
 
@@ -101,6 +125,7 @@ class March {
   const Layer& layer;
   const Ray<WideF>& ray;
   WideM open;                        // lanes that have met nothing yet
+  WideM seen = mask_from_bits(0);    // in front of something, or of nothing, at some time
   WideM hidden = mask_from_bits(0);  // behind something in the layer
   WideI last_seen = WideI(kNoId);    // what the layer showed where the ray was last in front
   WideI hider = WideI(kNoId);

@@ -7,6 +7,29 @@
 
 namespace shoal::inline SHOAL_ISA_NS {
 
+// Sixteen rays, each against a triangle of its own.
+struct TriangleTest {
+  WideF t;
+  WideM inside;  // in front of the ray's origin and within the triangle, up to rounding
+};
+
+SHOAL_INLINE TriangleTest test_triangles(const GeometryView& g, const Ray<WideF>& ray, WideI id, WideM active) {
+  constexpr float kSlack = 1e-5f;  // in barycentrics: shared edges must not fall between two triangles
+  Vec3<WideF> p0{}, e1{}, e2{};
+  for_each_distinct(id, active, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
+    const Geometry::TriangleRecord& r = g.triangles[one];
+    const Vec3f a = g.vertices[r.vertex[0]].position_world;
+    const Vec3f b = g.vertices[r.vertex[1]].position_world - a, c = g.vertices[r.vertex[2]].position_world - a;
+    p0 = select<WideF>(lanes, broadcast<WideF>(a), p0);
+    e1 = select<WideF>(lanes, broadcast<WideF>(b), e1);
+    e2 = select<WideF>(lanes, broadcast<WideF>(c), e2);
+  });
+  const TriangleHit<WideF> hit = intersect_triangle(ray, p0, e1, e2);
+  const WideM inside = active & hit.valid & (hit.t > WideF(0.0f)) & (hit.u >= WideF(-kSlack)) &
+                       (hit.v >= WideF(-kSlack)) & (hit.u + hit.v <= WideF(1.0f + kSlack));
+  return {hit.t, inside};
+}
+
 struct ConfirmedHit {
   WideI id;
   WideM held;  // the ray does meet it
