@@ -90,7 +90,7 @@ Difference compare(const RenderScene& scene, const Frame& a, const Frame& b) {
           static_cast<double>(far_off) / static_cast<double>(water)};
 }
 
-enum Camera { kHigh, kGrazing, kUnder };
+enum PoolCamera { kHigh, kGrazing, kUnder };
 
 }  // namespace
 
@@ -108,6 +108,28 @@ TEST_CASE("shade before: through flat water liu-2020 and steel-2024 show what is
     CHECK(steel.p95_m < 1e-2);
     CHECK(steel.wrong_object < 0.004);
   }
+}
+
+TEST_CASE("shade before: an orthographic view through flat water") {
+  RenderScene scene = scene_with_waves("pool", 5000, 0);
+  shoal::Camera& camera = scene.cameras[kHigh].camera;
+  camera.orthographic = true;
+  camera.xmag_m = 6.0f, camera.ymag_m = 3.375f, camera.far_m = 60.0f;
+  const Frame truth = draw(scene, kHigh, "ray-traced");
+  for (const char* method : {"liu-2020", "steel-2024"}) {
+    const Difference d = compare(scene, draw(scene, kHigh, method), truth);
+    CAPTURE(method, d.median_m, d.p95_m, d.wrong_object);
+    CHECK(d.median_m < 1e-3);
+    CHECK(d.p95_m < 1e-2);
+    CHECK(d.wrong_object < 0.004);
+  }
+  const Difference straight = compare(scene, draw(scene, kHigh, "distort"), draw(scene, kHigh, "none"));
+  CHECK(straight.p95_m < 1e-3);
+  CHECK(straight.wrong_object < 0.001);
+  // The march: every place is in the frame, and it is nearer to the truth than no refraction is.
+  const Difference marched = compare(scene, draw(scene, kHigh, "screen-space"), truth),
+                   none = compare(scene, draw(scene, kHigh, "none"), truth);
+  CHECK(marched.median_m < 0.7 * none.median_m);
 }
 
 TEST_CASE("shade before: under waves liu-2020 meets planes exactly, steel-2024 nearly, unrefracted frames miss much") {
