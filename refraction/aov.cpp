@@ -100,6 +100,8 @@ std::uint32_t uint_at(const FrameData& f, const RenderScene& scene, Aov aov, con
       return p.water() ? static_cast<std::uint32_t>(p.id - kFirstWaterId) + 1u : 0u;
     case Aov::kHitKind:
       return static_cast<std::uint32_t>(f.hit_points.kind[p.slot]);
+    case Aov::kHitOutside:
+      return static_cast<std::uint32_t>(f.hit_points.outside[p.slot]);
     case Aov::kHitId:
       return id_out(f.hit_points.id[p.slot]);
     default:
@@ -132,6 +134,7 @@ const std::vector<AovInfo>& aov_infos() {
       {Aov::kHitKind, "hit.kind", "", true},
       {Aov::kHitPosition, "hit.position", "XYZ", false},
       {Aov::kHitId, "hit.id", "", true},
+      {Aov::kHitOutside, "hit.outside", "", true},
   };
   return infos;
 }

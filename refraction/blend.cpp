@@ -36,8 +36,10 @@ std::size_t region_count(const FrameData& f) {
 
 void blend_water_pass(FrameData& f, const FrameKernels& kernels, const MethodKernels& method, const WaterPass& water,
                       ThreadPool& pool) {
-  pool.for_each(f.blended.bins.items.size(),
-                [&](std::size_t item, int) { kernels.blended_front_end(f, &water, item); });
+  const bool own_map = method.blended_front_end != nullptr && !water.mirrored;
+  pool.for_each(f.blended.bins.items.size(), [&](std::size_t item, int) {
+    own_map ? method.blended_front_end(f, water, item) : kernels.blended_front_end(f, &water, item);
+  });
   for (const BinItem& item : f.blended.bins.items) f.subdivision_capped += item.subdivision_capped;
   pool.for_each(region_count(f), [&](std::size_t region, int thread) {
     if (f.region_of_body[region] != 0) method.blend_water(f, water, region, thread);

@@ -54,7 +54,9 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
     const bool shows = find_region(f, kernels, water, pool);
     clock.lap("water.region");
     if (!shows) continue;
-    pool.for_each(items, [&](std::size_t item, int) { kernels.refracted_front_end(f, water, item); });
+    const auto front_end =
+        method.refracted_front_end != nullptr ? method.refracted_front_end : kernels.refracted_front_end;
+    pool.for_each(items, [&](std::size_t item, int) { front_end(f, water, item); });
     count_capped(f);
     clock.lap("refracted.front_end");
     pool.for_each(layer_tiles, [&](std::size_t tile, int) {
@@ -75,6 +77,12 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
       if (digests != nullptr) digests->reflected(f), clock.skip();
     }
 
+    // A method that shades before lights that layer; its narrow phase then looks into the picture.
+    if (method.light_layer != nullptr) {
+      pool.for_each(regions, [&](std::size_t region, int) { method.light_layer(f, water, region); });
+      clock.lap("layer");
+      if (digests != nullptr) digests->layer(f), clock.skip();
+    }
     pool.for_each(regions, [&](std::size_t region, int) {
       if (f.region_of_body[region] != 0) method.narrow(f, water, region);
     });

@@ -56,11 +56,24 @@ struct HitPoints {
   AlignedArray<float> virtual_x, virtual_y, virtual_z;
   AlignedArray<std::int32_t> kind;
   AlignedArray<std::int32_t> id;
+  AlignedArray<std::int32_t> outside;  // 1: the method looked for it outside of the frame
 };
 
 // Linear light, blocked, the average over samples when the last one is in.
 struct LitBuffer {
   AlignedArray<float> red, green, blue, alpha;
+};
+
+// Light and world position by pixel: the refracted layer as it is lit, and what water pixels took from it. Empty unless
+// the method shades before.
+struct LitPoints {
+  AlignedArray<float> red, green, blue;           // linear
+  AlignedArray<float> x_world, y_world, z_world;  // of the point; 0 where there is none
+  AlignedArray<std::int32_t> outside;             // of what pixels took: 1 where they looked outside of the frame
+  void resize(const FrameGrid& g) {
+    for (auto* plane : {&red, &green, &blue, &x_world, &y_world, &z_world}) plane->resize(g.pixel_slots());
+    outside.resize(g.pixel_slots());
+  }
 };
 
 // Bins of one pass: one item a run of chunks.
@@ -122,9 +135,10 @@ struct WaterPass {
   Plane keep;                             // world clip plane: what the pass draws
   Frustum frustum;                        // of the region's bounds
   PassSettings pass;
-  float near_m = 0;       // of the camera: displaced water that is nearer is not met
-  bool mirrored = false;  // this is the mirrored pass of the two
-  bool mirrors = false;   // the surface shows the scene on the eye's own side, not the background alone
+  float near_m = 0;        // of the camera: displaced water that is nearer is not met
+  bool mirrored = false;   // this is the mirrored pass of the two
+  bool looks_far = false;  // the narrow phase may look anywhere in the frame
+  bool mirrors = false;    // the surface shows the scene on the eye's own side, not the background alone
 };
 
 // Does the surface mirror the scene on the side that a ray comes from, whatever --reflections says? It does from within
@@ -175,6 +189,8 @@ struct FrameData {
   std::vector<std::uint8_t> layer_regions;   // [layers' regions] that are drawn
   std::vector<std::uint8_t> tile_active;     // [layers' tiles] that those touch
   std::vector<WaterPass> water;              // one a body, whether it shows or not
+  LitPoints layer;                           // the refracted layer, before absorption
+  LitPoints fetched;  // what each water pixel took from it, absorbed; the points only where they are captured
   HitBuffers hits;
   HitPoints hit_points;
   GBuffer gbuffer;

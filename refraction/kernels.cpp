@@ -2,25 +2,18 @@
 #include "refraction/kernels.h"
 
 #include "raster/visibility.h"
+#include "refraction/front_ends.h"
 #include "refraction/kernels_blend.h"
 #include "refraction/kernels_displaced.h"
 #include "refraction/kernels_shadow.h"
 #include "refraction/pixel_stage.h"
-#include "refraction/water_programs.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
-std::uint32_t end_of_item(const FrameData& f, std::uint32_t first) {
-  return first + f.bins.chunks_per_item < f.bins.chunk_count ? first + f.bins.chunks_per_item : f.bins.chunk_count;
-}
-
 void direct_front_end(FrameData& f, std::size_t item) {
-  const std::uint32_t first = static_cast<std::uint32_t>(item) * f.bins.chunks_per_item;
-  const DirectProgram program{f.view, f.frustum};
-  FrontEnd<DirectProgram>(f.geometry, program, f.direct_pass, f.bins.items[item])
-      .run(first, end_of_item(f, first), kNoId);
+  opaque_item(f, DirectProgram{f.view, f.frustum}, f.direct_pass, item);
 }
 
 void water_front_end(FrameData& f) {
@@ -35,30 +28,11 @@ void water_front_end(FrameData& f) {
 }
 
 void refracted_front_end(FrameData& f, const WaterPass& water, std::size_t item) {
-  const std::uint32_t first = static_cast<std::uint32_t>(item) * f.bins.chunks_per_item;
-  const RefractedProgram program{{water, f.view}};
-  FrontEnd<RefractedProgram>(f.geometry, program, water.pass, f.bins.items[item])
-      .run(first, end_of_item(f, first), kNoId);
+  opaque_item(f, RefractedProgram{{water, f.view}}, water.pass, item);
 }
 
 void mirrored_front_end(FrameData& f, const WaterPass& water, std::size_t item) {
-  const std::uint32_t first = static_cast<std::uint32_t>(item) * f.bins.chunks_per_item;
-  const MirroredProgram program{{water, f.view}};
-  FrontEnd<MirroredProgram>(f.geometry, program, water.pass, f.bins.items[item])
-      .run(first, end_of_item(f, first), kNoId);
-}
-
-template <class Program>
-void blended_item(FrameData& f, const Program& program, const PassSettings& like, bool in_region, std::size_t item) {
-  PassSettings pass = like;
-  pass.skip_blended = false;
-  pass.grid = in_region ? f.layers.regions : f.blended.grid;
-  pass.tile_active = in_region ? f.layer_regions.data() : nullptr;
-  PassBins& bins = f.blended.bins;
-  const std::uint32_t first = static_cast<std::uint32_t>(item) * bins.chunks_per_item;
-  const std::uint32_t left = bins.chunk_count - first;
-  const std::uint32_t count = left < bins.chunks_per_item ? left : bins.chunks_per_item;
-  FrontEnd<Program>(f.geometry, program, pass, bins.items[item]).run(f.blended.chunks.data() + first, count);
+  opaque_item(f, MirroredProgram{{water, f.view}}, water.pass, item);
 }
 
 void blended_front_end(FrameData& f, const WaterPass* water, std::size_t item) {

@@ -53,6 +53,12 @@ struct MethodKernels {
   void (*shade)(FrameData&, std::size_t region);
   // Of a method that traces rays instead: one region of the frame, all of it. The stages above are then not used.
   void (*trace)(FrameData&, std::size_t region) = nullptr;
+  // Of a method that shades before (refraction/shade_before.h), else null: lights the refracted layer, one region.
+  void (*light_layer)(FrameData&, const WaterPass&, std::size_t region) = nullptr;
+  // Geometry by a map of the method's own, opaque and blended; null: by WaterPass::map.
+  void (*refracted_front_end)(FrameData&, const WaterPass&, std::size_t item) = nullptr;
+  void (*blended_front_end)(FrameData&, const WaterPass&, std::size_t item) = nullptr;
+  bool whole_scene = false;  // the layer is the whole scene without its water, not the plane's far side alone
 };
 
 // An option of a method, `--set KEY=VALUE`. Its value is a number: a truth value is 0 or 1.

@@ -149,6 +149,7 @@ struct Renderer::Impl {
       f.refracted.resize(f.layers.grid);
       f.mirrored.resize(f.layers.grid);
       f.hits.resize(f.grid);
+      if (method.kernels.light_layer != nullptr) f.layer.resize(f.grid), f.fetched.resize(f.grid);
     }
     if (captures()) {
       for (auto& plane : f.gbuffer.plane) plane.resize(f.grid.pixel_slots());
@@ -157,6 +158,7 @@ struct Renderer::Impl {
         plane->resize(f.grid.pixel_slots());
       h.kind.resize(f.grid.pixel_slots());
       h.id.resize(f.grid.pixel_slots());
+      h.outside.resize(f.grid.pixel_slots());
     }
     if (f.settings.spp > 1 || f.settings.digests || f.settings.keep_linear)
       for (auto* plane : {&f.lit.red, &f.lit.green, &f.lit.blue, &f.lit.alpha}) plane->resize(f.grid.pixel_slots());

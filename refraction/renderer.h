@@ -35,6 +35,7 @@ enum class Aov : std::uint8_t {
   kHitKind,
   kHitPosition,
   kHitId,
+  kHitOutside,
   kCount
 };
 struct AovInfo {

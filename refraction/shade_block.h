@@ -47,6 +47,7 @@ SHOAL_INLINE void capture_clear(FrameData& f, const Block& block) {
   const Vec3<WideF> zero = broadcast<WideF>(Vec3f{0, 0, 0});
   capture_surface(f, block, {zero, zero, zero, WideF(0.0f), WideF(0.0f), WideF(0.0f), zero}, every);
   capture_hits(f, block, zero, zero, WideI(kNoId), HitKind::kNoWater, every);
+  WideI(0).store(f.hit_points.outside.data() + block.offset);
 }
 }  // namespace shade_detail
 
@@ -77,12 +78,40 @@ SHOAL_INLINE Vec3<WideF> look(const FrameData& f, const WaterPass& water, const 
   return radiance;
 }
 
+// A method that looks into the lit layer (refraction/shade_before.h) says so.
+template <class M>
+concept ShadesBefore = M::kShadesBefore;
+// And one that mirrors other rays than the true ones.
+template <class M>
+concept MirrorsItsWay = requires {
+  &M::mirror;
+};
+
+// What the narrow phase took from the lit layer.
+SHOAL_INLINE Vec3<WideF> show_fetched(FrameData& f, const Block& block, const WaterPass& water, WideM through) {
+  const LitPoints& at = f.fetched;
+  const auto load3 = [&](const AlignedArray<float>& x, const AlignedArray<float>& y, const AlignedArray<float>& z) {
+    return Vec3<WideF>{WideF::load(x.data() + block.offset), WideF::load(y.data() + block.offset),
+                       WideF::load(z.data() + block.offset)};
+  };
+  if (f.capture) {
+    const WideI shown = WideI::load(f.hits.refracted_id.data() + block.offset);
+    const Vec3<WideF> p = load3(at.x_world, at.y_world, at.z_world);
+    shade_detail::capture_hits(f, block, p, virtual_position(water.optics, p), shown, HitKind::kSurface,
+                               through & is_triangle(shown));
+    store_masked(f.hit_points.outside.data() + block.offset, WideI::load(at.outside.data() + block.offset), through);
+  }
+  // The other lanes' slots hold anything.
+  return select<WideF>(through, load3(at.red, at.green, at.blue), broadcast<WideF>(Vec3f{0, 0, 0}));
+}
+
 // The lanes of a block that show one body's surface.
 template <class M>
 __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, const WaterPass& water,
                                            const Ray<WideF>& ray, WideM lanes, BlockColor& out) {
   const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
-  const WaterRays<WideF> r = M::template rays<WideF>(water, ray, differential);
+  WaterRays<WideF> r = M::template rays<WideF>(water, ray, differential);
+  if constexpr (MirrorsItsWay<M>) M::mirror(f, water, block, r);
   const ExactRay<WideF>& at = r.at_surface;
   const bool eye_below = water.optics.eye_below;
   const WideM through = lanes & at.transmitted;
@@ -95,7 +124,9 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
     shade_detail::capture_hits(f, block, zero, zero, WideI(kNoId), HitKind::kSky, lanes);
   }
   Vec3<WideF> refracted = zero, reflected = zero;
-  if (any(through)) {
+  if constexpr (ShadesBefore<M>) {
+    if (any(through)) refracted = show_fetched(f, block, water, through);
+  } else if (any(through)) {
     const WideI shown = WideI::load(f.hits.refracted_id.data() + block.offset);
     refracted = look(f, water, r.refracted, r.refracted_differential, shown, through, !eye_below,
                      [&](const ShadedLanes& s, WideM hit) SHOAL_LAMBDA {

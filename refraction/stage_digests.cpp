@@ -64,6 +64,12 @@ void StageDigests::reflected(const FrameData& f) {
   add_rows(stage("depth.reflected"), f.layers.grid, f.mirrored.depth, &f.layer_regions);
 }
 
+void StageDigests::layer(const FrameData& f) {
+  const LitPoints& l = f.layer;
+  for (const auto* plane : {&l.red, &l.green, &l.blue, &l.x_world, &l.y_world, &l.z_world})
+    add_rows(stage("layer"), f.grid, *plane, nullptr);
+}
+
 void StageDigests::blended(const FrameData& f) {
   if (!f.blended.any()) return;
   // Empty blocks are those that let everything through.

@@ -20,6 +20,7 @@ class StageDigests {
   void direct(const FrameData& f);
   void refracted(const FrameData& f);  // once a body of water that shows
   void reflected(const FrameData& f);
+  void layer(const FrameData& f);    // of a method that shades before
   void blended(const FrameData& f);  // the layers, where the scene has blended materials
   void shaded(const FrameData& f);   // G-buffer and hit buffers
   void picture(const FrameData& f);  // lit and final, once all samples are in

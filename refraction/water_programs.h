@@ -80,6 +80,38 @@ struct RefractedProgram : ClippedByWater {
   }
 };
 
+// A method's own map in place of the broad phase.
+//
+//   Map  template <class F> Vec3<F> position(Vec3<F> world) const;     where a world position is drawn
+//        void bounds(Vec3f lo, Vec3f hi, Vec3f& out_lo, Vec3f& out_hi) const;   of a world box's images
+// Edges are split where the exact map (WaterPass::optics) would have them split, or nowhere.
+template <class Map>
+struct MappedProgram : ClippedByWater {
+  const Map& map;
+  bool splits;
+
+  __attribute__((noinline)) ClipVertex<WideF> vertex(Vec3<WideF> position_world) const {
+    return project(view, map.position(position_world));
+  }
+  SHOAL_INLINE bool box_outside_view(Vec3f lo, Vec3f hi) const {
+    Vec3f image_lo, image_hi;
+    map.bounds(lo, hi, image_lo, image_hi);
+    return box_outside(water.frustum, image_lo, image_hi);
+  }
+  bool chunk_outside(const Chunk& chunk) const {
+    return all_clipped(chunk.bounds_min_world, chunk.bounds_max_world) ||
+           box_outside_view(chunk.bounds_min_world, chunk.bounds_max_world);
+  }
+  bool chunk_bends(const Chunk& chunk) const {
+    return splits && chunk_deviation_bound_px(water.optics, view, chunk.bounds_min_world, chunk.bounds_max_world,
+                                              chunk.longest_edge_m) > kEdgeThresholdPx;
+  }
+  __attribute__((noinline)) WideM edge_bends(Vec3<WideF> a, Vec3<WideF> b) const {
+    if (!splits) return mask_from_bits(0);
+    return edge_deviation_px(water.optics, view, a, b) > WideF(kEdgeThresholdPx);
+  }
+};
+
 // The scene mirrored in the plane, for the eye under water (total internal reflection).
 struct MirroredProgram : ClippedByWater {
   template <class F>

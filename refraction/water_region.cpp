@@ -12,6 +12,8 @@ namespace {
 
 // Geometry is clipped this far beyond the plane, so that no seam opens between direct and refracted edges.
 constexpr float kOverlap_m = 0.02f;
+// Beyond any scene: nothing is clipped.
+constexpr float kEverything_m = 1e30f;
 
 // Between the plane and displaced waves there is geometry on either side.
 float overlap_m(const WaterPass& water) {
@@ -74,6 +76,8 @@ void place_water(FrameData& f, const MethodKernels& method) {
     const WaterSide side = eye_side(w.optics);
     w.mirrors = f.settings.reflections == Reflections::kScene || always_mirrors(w.optics.eye_below, side.eta);
     w.keep = {w.map.far_normal, overlap_m(w) - dot(w.map.far_normal, w.map.plane_origin)};
+    if (method.whole_scene) w.keep.offset_m = kEverything_m;
+    w.looks_far = w.surface != nullptr || method.light_layer != nullptr;
     const bool in_water = eye.over_body && eye.above_m < 0.0f && eye.above_plane_m > -bodies[b].depth_m;
     if (f.eye_in_water < 0 && in_water) f.eye_in_water = w.index;
   }
@@ -85,14 +89,14 @@ bool any_displaced(const FrameData& f) {
 }
 
 // What of the layers is drawn for a body that shows in these regions of the frame, first to last: those, or, where
-// waves bend rays away, all.
+// waves bend rays away or the method looks into a lit layer, all.
 struct RegionBox {
   int x0, y0, x1, y1;
 };
 static void draw_layers_at(FrameData& f, WaterPass& water, RegionBox box) {
   const LayerGrid& layers = f.layers;
   std::vector<std::uint8_t>& region = f.layer_regions;
-  if (water.surface != nullptr) {
+  if (water.looks_far) {
     std::fill(region.begin(), region.end(), std::uint8_t{1});
     box = {0, 0, layers.grid.regions_x - 1, layers.grid.regions_y - 1};
   } else {

@@ -238,6 +238,29 @@ SHOAL_INLINE BoxDistances box_distances(const BroadPhase& bp, Vec3f box_min, Vec
   return {middle - reach - pad, middle + reach + pad, max(d - radius - pad, 0.0f), d + radius + pad};
 }
 
+// A box that holds a world box's points moved along the normal to distances lo to hi from the plane, positive on the
+// far side, rounding included.
+SHOAL_INLINE void lifted_bounds(const BroadPhase& bp, Vec3f box_min, Vec3f box_max, float lo, float hi, Vec3f& out_min,
+                                Vec3f& out_max) {
+  // V = (P's foot on the plane) + far_normal * distance, each component by itself.
+  const Vec3f centre = (box_min + box_max) * 0.5f, half = (box_max - box_min) * 0.5f, n = bp.far_normal;
+  const Vec3f foot = centre - n * far_distance(bp, centre);
+  const Vec3f lift = n * (0.5f * (lo + hi)), spread = n * (0.5f * (hi - lo));
+  const auto reach = [&](Vec3f row, float along_normal) {
+    return std::fabs(row.x) * half.x + std::fabs(row.y) * half.y + std::fabs(row.z) * half.z + std::fabs(along_normal);
+  };
+  const Vec3f extent = {reach({1.0f - n.x * n.x, n.x * n.y, n.x * n.z}, spread.x),
+                        reach({n.y * n.x, 1.0f - n.y * n.y, n.y * n.z}, spread.y),
+                        reach({n.z * n.x, n.z * n.y, 1.0f - n.z * n.z}, spread.z)};
+  const Vec3f middle = foot + lift;
+  const float size = length(centre) + length(half) + length(bp.plane_origin) + length(bp.eye_world) +
+                     max(std::fabs(lo), std::fabs(hi));
+  const float pad = 2e-6f * size;
+  const Vec3f margin = extent + Vec3f{pad, pad, pad};
+  out_min = middle - margin;
+  out_max = middle + margin;
+}
+
 // A box that holds the virtual images of all points of a world box, those on the eye's side included.
 //
 //   box_min, box_max  world, metres, min <= max, finite
@@ -259,23 +282,7 @@ SHOAL_INLINE void virtual_bounds(const BroadPhase& bp, Vec3f box_min, Vec3f box_
   };
   const float lo = apparent(box.far_lo_m, bp.eye_is_thin ? box.across_hi_m : box.across_lo_m);
   const float hi = apparent(box.far_hi_m, bp.eye_is_thin ? box.across_lo_m : box.across_hi_m);
-  // V = (P's foot on the plane) + far_normal * apparent distance, each component by itself.
-  const Vec3f centre = (box_min + box_max) * 0.5f, half = (box_max - box_min) * 0.5f, n = bp.far_normal;
-  const Vec3f foot = centre - n * far_distance(bp, centre);
-  const Vec3f lift = n * (0.5f * (lo + hi)), spread = n * (0.5f * (hi - lo));
-  const auto reach = [&](Vec3f row, float along_normal) {
-    return std::fabs(row.x) * half.x + std::fabs(row.y) * half.y + std::fabs(row.z) * half.z + std::fabs(along_normal);
-  };
-  const Vec3f extent = {reach({1.0f - n.x * n.x, n.x * n.y, n.x * n.z}, spread.x),
-                        reach({n.y * n.x, 1.0f - n.y * n.y, n.y * n.z}, spread.y),
-                        reach({n.z * n.x, n.z * n.y, 1.0f - n.z * n.z}, spread.z)};
-  const Vec3f middle = foot + lift;
-  const float size = length(centre) + length(half) + length(bp.plane_origin) + length(bp.eye_world) +
-                     max(std::fabs(lo), std::fabs(hi));
-  const float pad = 2e-6f * size;
-  const Vec3f margin = extent + Vec3f{pad, pad, pad};
-  out_min = middle - margin;
-  out_max = middle + margin;
+  lifted_bounds(bp, box_min, box_max, lo, hi, out_min, out_max);
 }
 
 // sup of eye_distance |Hessian of v| over all points, seen from the thin side: 0.370 for 1.33, and for every ratio r

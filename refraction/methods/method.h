@@ -20,6 +20,40 @@
 
 namespace shoal::inline SHOAL_ISA_NS {
 
+// The ray that the surface bends, and the one that goes straight on; both mirror alike.
+template <class F>
+SHOAL_INLINE WaterRays<F> bent_rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
+  const ExactRay<F> hit = exact_ray(eye_side(water), view_ray);
+  const RayDifferential<F> crossing = at_crossing(view_ray, differential, hit);
+  return {hit,
+          {hit.crossing_world, hit.refracted},
+          {hit.crossing_world, hit.reflected},
+          refracted_differential(crossing, hit),
+          reflected_differential(crossing, hit)};
+}
+template <class F>
+SHOAL_INLINE WaterRays<F> straight_rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
+  const ExactRay<F> hit = exact_ray(eye_side(water), view_ray);
+  const RayDifferential<F> crossing = at_crossing(view_ray, differential, hit);
+  return {hit,
+          {hit.crossing_world, hit.incident},
+          {hit.crossing_world, hit.reflected},
+          crossing,
+          reflected_differential(crossing, hit)};
+}
+
+// What the surface mirrors, found as every method finds it: by the true reflected ray.
+SHOAL_INLINE void narrow_mirrored(FrameData& f, const WaterPass& water, const Block& block, const Ray<WideF>& reflected,
+                                  WideM here) {
+  if (!water.mirrors) return;
+  const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),
+              y = WideI(block.y_px + f.layers.margin_px) + block_y();
+  const WideI mirrored = WideI::load(f.mirrored.id.data() + f.layers.offset(block.x_px, block.y_px));
+  const WideI id = water.surface != nullptr ? march_hit(f, Layer{f.mirrored, water, true}, reflected, mirrored, here)
+                                            : confirm_hit(f.geometry, f.mirrored, reflected, mirrored, x, y, here).id;
+  store_masked(f.hits.mirrored_id.data() + block.offset, id, here);
+}
+
 template <class M>
 struct MethodStages {
   // Alpha test of the refracted pass: where the method's ray meets the triangle.
@@ -49,12 +83,7 @@ struct MethodStages {
       const WideI id = bent ? march_hit(f, Layer{f.refracted, water, false}, rays.refracted, own, through)
                             : confirm_hit(f.geometry, f.refracted, rays.refracted, own, x, y, through).id;
       store_masked(f.hits.refracted_id.data() + block.offset, id, here);
-      if (!water.mirrors) return;
-      const WideI mirrored = WideI::load(f.mirrored.id.data() + at);
-      const WideI mirror_id = water.surface != nullptr
-                                  ? march_hit(f, Layer{f.mirrored, water, true}, rays.reflected, mirrored, here)
-                                  : confirm_hit(f.geometry, f.mirrored, rays.reflected, mirrored, x, y, here).id;
-      store_masked(f.hits.mirrored_id.data() + block.offset, mirror_id, here);
+      narrow_mirrored(f, water, block, rays.reflected, here);
     });
   }
 

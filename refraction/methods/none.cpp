@@ -15,13 +15,7 @@ struct None {
 
   template <class F>
   SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
-    const ExactRay<F> hit = exact_ray(eye_side(water), view_ray);
-    const RayDifferential<F> crossing = at_crossing(view_ray, differential, hit);
-    return {hit,
-            {hit.crossing_world, hit.incident},
-            {hit.crossing_world, hit.reflected},
-            crossing,
-            reflected_differential(crossing, hit)};
+    return straight_rays(water, view_ray, differential);
   }
 };
 }  // namespace

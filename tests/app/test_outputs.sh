@@ -9,7 +9,7 @@ sleep 1.1  # another second, should a date get in
 mkdir other
 passes "render it again" "$shoal" render box -o other/b.png $small --threads 1 --tile 32 --quiet
 equals "same bytes" "same" "$(cmp a.png other/b.png && echo same)"
-aovs=depth,normal,position,id.triangle,id.node,virtual,water.mask,surface.height,surface.normal,hit.kind,hit.position,hit.id
+aovs=depth,normal,position,id.triangle,id.node,virtual,water.mask,surface.height,surface.normal,hit.kind,hit.position,hit.id,hit.outside
 passes "render an EXR" "$shoal" render box -o a.exr $small --aov $aovs
 sleep 1.1
 passes "render it again" "$shoal" render box -o other/b.exr $small --aov $aovs --threads 2 --tile 128
@@ -52,6 +52,7 @@ hit.position.X float
 hit.position.Y float
 hit.position.Z float
 hit.id uint
+hit.outside uint
 END
 equals "EXR channels and types" "" "$(diff .wanted .channels)"
 "$shoal" render box -o plain.exr $small
@@ -77,7 +78,7 @@ for xy in "3 2" "57 5" "30 21" "8 40" "44 33"; do
   equals "$xy: hit.kind" "$(picture sample a.exr hit.kind "$1" "$2")" "$(uint_of hit.kind)"
 done
 equals "probe --pixel's keys" \
-  "pixel depth depth_hex normal normal_hex position position_hex id.triangle id.node virtual virtual_hex water.mask surface.height surface.height_hex surface.normal surface.normal_hex hit.kind hit.position hit.position_hex hit.id lit lit_hex final" \
+  "pixel depth depth_hex normal normal_hex position position_hex id.triangle id.node virtual virtual_hex water.mask surface.height surface.height_hex surface.normal surface.normal_hex hit.kind hit.position hit.position_hex hit.id hit.outside lit lit_hex final" \
   "$(keys_of .probe)"
 passes "probe --point" "$shoal" probe box --point 0.25,-0.5,0.125 --json .point
 equals "probe --point's keys" \

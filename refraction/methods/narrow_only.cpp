@@ -1,0 +1,36 @@
+// narrow-only: the plane narrow phase on an unrefracted frame. No geometry is moved: all that the eye's straight rays
+// do not see is missing, and what stands in front of the water is found through it.
+//
+// Source  Liu, Han and Fei 2020, Figs. 8 and 9 (their ablation).
+// Differs As liu-2020's narrow phase: Snell's ray, and the world's planes.
+#include "refraction/narrow/plane_look.h"
+#include "refraction/shade_before.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+namespace {
+struct NarrowOnly {
+  static constexpr bool kFollowsWaves = true, kShadesBefore = true, kWholeScene = true;
+  // Index 1 makes the broad phase the identity.
+  static BroadPhase map(const WaterBody& body, const View& view) {
+    return make_broad_phase(body.origin, body.normal, 1.0f, view);
+  }
+
+  template <class F>
+  SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
+    return straight_rays(water, view_ray, differential);
+  }
+
+  static LayerPlace look(const LookUp& l) {
+    const Ray<WideF> ray{l.at.crossing_world, l.at.refracted};
+    return project_place(l.f.view, ray.origin_world + ray.direction_world * plane_look(l, ray));
+  }
+};
+}  // namespace
+
+Method narrow_only() {
+  return {"narrow-only", "plane narrow phase on an unrefracted frame", "Liu, Han and Fei 2020, Figs. 8 and 9",
+          ShadeBeforeStages<NarrowOnly>::kernels()};
+}
+
+}  // namespace shoal::inline SHOAL_ISA_NS

@@ -1,0 +1,118 @@
+// Methods that shade before: the layer beyond the water is lit as a picture of its own, and each water pixel looks into
+// that picture somewhere.
+//
+//   struct MyMethod {
+//     static constexpr bool kShadesBefore = true;
+//     static constexpr bool kWholeScene = false;                    // true: the layer is the frame without its water
+//     static BroadPhase map(const WaterBody&, const View&);         // as of a method that shades after
+//     template <class F> static WaterRays<F> rays(const WaterPass&, Ray<F> view_ray, RayDifferential<F>);
+//     static LayerPlace look(const LookUp&);                        // where each water pixel looks in the layer
+//     struct Map { ... };                                           // if its map is no BroadPhase: MappedProgram's
+//     // If the surface is to mirror something else than its true ray shows:
+//     static void mirror(const FrameData&, const WaterPass&, const Block&, WaterRays<WideF>&);
+//   };
+//
+// ShadeBeforeStages<MyMethod>::kernels() makes the frame's stages of it. Surface, reflection, Fresnel, absorption and
+// shadows are those of all methods, so that pictures differ by what is seen through the water alone.
+#pragma once
+
+#include "refraction/front_ends.h"
+#include "refraction/methods/method.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+// What a narrow phase may know of sixteen pixels.
+struct LookUp {
+  const FrameData& f;
+  const WaterPass& water;
+  const Block& block;
+  Ray<WideF> view_ray;
+  const ExactRay<WideF>& at;  // where it meets the surface, waves and all
+  WideM lanes;                // that look: water, not totally reflecting
+};
+
+// A place in the layer, in pixels: a texel's sample is at its index + 0.5. Outside of the frame it is brought to the
+// edge.
+struct LayerPlace {
+  WideF x_px, y_px;
+};
+
+// The pixels' own places.
+SHOAL_INLINE LayerPlace own_place(const Block& block) {
+  return {to_float(WideI(block.x_px) + block_x()) + WideF(0.5f), to_float(WideI(block.y_px) + block_y()) + WideF(0.5f)};
+}
+
+// Where a point of the layer's space shows; behind the eye, far off.
+SHOAL_INLINE LayerPlace project_place(const View& view, Vec3<WideF> p) {
+  const ClipVertex<WideF> clip = project(view, p);
+  const WideF inverse_w = WideF(1.0f) / max(clip.w, WideF(1e-6f));
+  return {clip.x * inverse_w + WideF(view.centre_px.x), clip.y * inverse_w + WideF(view.centre_px.y)};
+}
+
+SHOAL_INLINE LayerPlace select_place(WideM m, LayerPlace a, LayerPlace b) {
+  return {select(m, a.x_px, b.x_px), select(m, a.y_px, b.y_px)};
+}
+
+// Lights one region of the refracted layer into FrameData::layer: each pixel at its own point, where the ray through
+// flat water (of a whole scene: the straight ray) meets the triangle drawn there.
+void light_layer(FrameData& f, const WaterPass& water, std::size_t region, bool whole_scene);
+
+// Fetches the layer, bilinear, for the lanes of a block, and absorbs each texel's light on its way from there to the
+// surface. Writes FrameData::fetched and hits.refracted_id: the nearest texel's triangle. A point is mixed as light is
+// where all four texels are of one drawable, else it is the nearest's.
+void fetch_layer(FrameData& f, const WaterPass& water, const Block& block, const ExactRay<WideF>& at, LayerPlace place,
+                 WideM lanes);
+
+template <class M>
+struct ShadeBeforeStages {
+  static void light(FrameData& f, const WaterPass& water, std::size_t region) {
+    light_layer(f, water, region, M::kWholeScene);
+  }
+
+  static void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
+    const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
+    for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
+      const WideM here =
+          (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
+      if (none(here)) return;
+      const Ray<WideF> view_ray = block_rays(f.view, block);
+      WaterRays<WideF> rays = M::template rays<WideF>(water, view_ray, differential);
+      if constexpr (MirrorsItsWay<M>) M::mirror(f, water, block, rays);
+      const WideM through = here & rays.at_surface.transmitted;
+      if (any(through)) {
+        const LayerPlace place = M::look(LookUp{f, water, block, view_ray, rays.at_surface, through});
+        fetch_layer(f, water, block, rays.at_surface, place, through);
+      }
+      narrow_mirrored(f, water, block, rays.reflected, here);
+    });
+  }
+
+  static void refracted_front_end(FrameData& f, const WaterPass& water, std::size_t item) requires requires {
+    typename M::Map;
+  }
+  {
+    const typename M::Map map(f, water);
+    opaque_item(f, MappedProgram<typename M::Map>{{water, f.view}, map, map.splits()}, water.pass, item);
+  }
+  static void blended_front_end(FrameData& f, const WaterPass& water, std::size_t item) requires requires {
+    typename M::Map;
+  }
+  {
+    const typename M::Map map(f, water);
+    blended_item(f, MappedProgram<typename M::Map>{{water, f.view}, map, map.splits()}, water.pass, true, item);
+  }
+
+  static constexpr MethodKernels kernels() {
+    MethodKernels k = MethodStages<M>::kernels();
+    k.narrow = &narrow;
+    k.light_layer = &light;
+    k.whole_scene = M::kWholeScene;
+    if constexpr (requires { typename M::Map; }) {
+      k.refracted_front_end = &refracted_front_end;
+      k.blended_front_end = &blended_front_end;
+    }
+    return k;
+  }
+};
+
+}  // namespace shoal::inline SHOAL_ISA_NS
