@@ -9,7 +9,11 @@
 #include "app/json_report.h"
 #include "app/output.h"
 #include "app/pictures.h"
+#include "compare/flip.h"
+#include "compare/map_color.h"
+#include "compare/statistics.h"
 #include "core/error.h"
+#include "raster/srgb.h"
 
 namespace shoal::app {
 namespace {
@@ -136,24 +140,94 @@ std::vector<float> difference_map(const Picture& a, const Picture& b, const std:
   return rgb;
 }
 
+// --- FLIP -----------------------------------------------------------------------------------------------------------
+
+struct Flip {
+  MapSummary summary;
+  const char* kind = "ldr";
+  float ppd = kDefaultPixelsPerDegree;
+  std::vector<float> error;
+};
+
+// Linear light of a picture with red, green and blue; nothing for any other.
+std::optional<LinearPicture> linear_picture(const Picture& picture) {
+  LinearPicture linear{picture.width_px, picture.height_px, {}};
+  const std::size_t pixels = picture.channels.front().bits.size();
+  linear.rgb.resize(pixels * 3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const PictureChannel* channel = picture.find(std::string(1, "RGB"[c]));
+    if (!channel) return std::nullopt;
+    const bool encoded = picture.format == Picture::Format::kPng;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const double value = channel->value(i) / peak(*channel);
+      linear.rgb[3 * i + c] = static_cast<float>(encoded ? srgb_to_linear(value) : value);
+    }
+  }
+  return linear;
+}
+
+// LDR-FLIP of two PNGs, HDR-FLIP of two EXRs, with A as the reference.
+std::optional<Flip> flip_pictures(const DiffArguments& arguments, const Picture& a, const Picture& b,
+                                  const std::vector<bool>& counts) {
+  const std::optional<LinearPicture> reference = linear_picture(a), test = linear_picture(b);
+  if (!reference || !test) return std::nullopt;
+  Flip flip;
+  if (arguments.ppd) flip.ppd = read_float("--ppd", *arguments.ppd, 1, 10000);
+  ThreadPool pool(available_threads());
+  const FlipSettings settings{flip.ppd, supported_isas().front()};
+  if (a.format == Picture::Format::kPng) {
+    flip.error = ldr_flip(*reference, *test, settings, pool);
+  } else {
+    flip.kind = "hdr";
+    flip.error = hdr_flip(*reference, *test, settings, pool).error;
+  }
+  flip.summary = summarize(flip.error, counts);
+  return flip;
+}
+
+Json flip_json(const std::optional<Flip>& flip) {
+  if (!flip) return nullptr;
+  Json json = Json::object();
+  json["mean"] = json_double(flip->summary.mean);
+  json["median"] = json_double(flip->summary.median);
+  json["p95"] = json_double(flip->summary.p95);
+  json["kind"] = flip->kind;
+  json["ppd"] = json_float(flip->ppd);
+  return json;
+}
+
+// The error itself for an EXR, its colours for a PNG.
+std::vector<float> flip_map(const std::string& path, const Flip& flip, const std::vector<bool>& counts) {
+  std::vector<float> rgb;
+  if (has_ending(path, ".png")) {
+    for (const std::uint8_t code : flip_map_rgb(flip.error, counts)) rgb.push_back(static_cast<float>(code) / 255.0f);
+  } else {
+    for (const float error : flip.error) rgb.insert(rgb.end(), 3, error);
+  }
+  return rgb;
+}
+
+// --- Report ---------------------------------------------------------------------------------------------------------
+
 std::string sample_text(const PictureChannel& channel, std::size_t pixel) {
   const double value = channel.value(pixel);
   if (channel.type != SampleType::kFloat) return fmt::format("{:.0f}", value);
   return fmt::format("{} ({:a})", static_cast<float>(value), value);
 }
 
-std::string summary(const Picture& a, const Picture& b, const Difference& d) {
+std::string summary(const Picture& a, const Picture& b, const Difference& d, const std::optional<Flip>& flip) {
   if (d.pixels_differ == 0) return "equal\n";
   const auto width = static_cast<std::size_t>(a.width_px);
   const PictureChannel& ca = a.channels[d.first_channel];
   const PictureChannel& cb = b.channels[d.first_channel];
-  return fmt::format("different\npixels {} of {}\nfirst {},{} {}: {} and {}\nmax_abs {}\npsnr_db {}\n", d.pixels_differ,
-                     ca.bits.size(), d.first_pixel % width, d.first_pixel / width, ca.name,
+  return fmt::format("different\npixels {} of {}\nfirst {},{} {}: {} and {}\nmax_abs {}\npsnr_db {}\nflip {}\n",
+                     d.pixels_differ, ca.bits.size(), d.first_pixel % width, d.first_pixel / width, ca.name,
                      sample_text(ca, d.first_pixel), sample_text(cb, d.first_pixel), d.max_abs,
-                     std::isfinite(d.psnr_db) ? fmt::format("{:.4f}", d.psnr_db) : "none");
+                     std::isfinite(d.psnr_db) ? fmt::format("{:.4f}", d.psnr_db) : "none",
+                     flip ? fmt::format("{:.6f}", flip->summary.mean) : "none");
 }
 
-Json report(const Picture& a, const Difference& d) {
+Json report(const Picture& a, const Difference& d, const std::optional<Flip>& flip) {
   const auto width = static_cast<std::size_t>(a.width_px);
   Json json = Json::object();
   json["equal"] = d.pixels_differ == 0;
@@ -163,19 +237,36 @@ Json report(const Picture& a, const Difference& d) {
   if (d.pixels_differ > 0) {
     json["first"] = {d.first_pixel % width, d.first_pixel / width, a.channels[d.first_channel].name};
   }
-  json["flip"] = nullptr;
+  json["flip"] = flip_json(flip);
   json["psnr_db"] = json_double(d.psnr_db);
   return json;
 }
 
+void check_map_name(const char* option, const std::optional<std::string>& name) {
+  if (name && !has_ending(*name, ".png") && !has_ending(*name, ".exr")) {
+    throw UsageError(fmt::format("{} '{}': not a picture's name; expected FILE.png or FILE.exr", option, *name));
+  }
+}
+
 void check_arguments(const DiffArguments& arguments) {
   if (arguments.ppd) read_number("--ppd", *arguments.ppd, 1, 10000);
-  if (arguments.map && !has_ending(*arguments.map, ".png") && !has_ending(*arguments.map, ".exr")) {
-    throw UsageError(fmt::format("--map '{}': not a picture's name; expected FILE.png or FILE.exr", *arguments.map));
-  }
-  if (arguments.map && arguments.json && *arguments.map == *arguments.json) {
+  check_map_name("--map", arguments.map);
+  check_map_name("--flip-map", arguments.flip_map);
+  const auto same = [](const auto& x, const auto& y) { return x && y && *x == *y; };
+  if (same(arguments.map, arguments.json) || same(arguments.flip_map, arguments.json)) {
     throw UsageError(fmt::format("--json '{}': the map has that name; expected another", *arguments.json));
   }
+  if (same(arguments.map, arguments.flip_map)) {
+    throw UsageError(fmt::format("--flip-map '{}': the other map has that name; expected another", *arguments.map));
+  }
+}
+
+// On the disk, not yet in its place.
+std::unique_ptr<OutputFile> begin_map(const std::string& path, const Picture& size, const std::vector<float>& rgb) {
+  auto map = std::make_unique<OutputFile>(path);
+  write_map(map->stream(), path, size.width_px, size.height_px, rgb);
+  map->finish();
+  return map;
 }
 
 }  // namespace
@@ -189,16 +280,20 @@ int run_diff(const DiffArguments& arguments) {
     throw Error(fmt::format("{}: is black all over; expected a mask with at least one pixel", *arguments.mask));
   }
   const Difference difference = compare_pictures(a, b, counts);
+  const bool text = arguments.json != "-" && !arguments.quiet;
+  std::optional<Flip> flip;
+  if (text || arguments.json || arguments.flip_map) flip = flip_pictures(arguments, a, b, counts);
 
-  std::unique_ptr<OutputFile> map;
-  if (arguments.map) {
-    map = std::make_unique<OutputFile>(*arguments.map);
-    write_map(map->stream(), *arguments.map, a.width_px, a.height_px, difference_map(a, b, counts));
-    map->finish();
+  std::unique_ptr<OutputFile> map, colors;
+  if (arguments.map) map = begin_map(*arguments.map, a, difference_map(a, b, counts));
+  if (arguments.flip_map) {
+    if (!flip) throw Error(fmt::format("{}: has no red, green and blue; expected them for --flip-map", arguments.a));
+    colors = begin_map(*arguments.flip_map, a, flip_map(*arguments.flip_map, *flip, counts));
   }
-  if (arguments.json) write_text(*arguments.json, json_text(report(a, difference)));
+  if (arguments.json) write_text(*arguments.json, json_text(report(a, difference, flip)));
   if (map) map->commit();
-  if (arguments.json != "-" && !arguments.quiet) write_stdout(summary(a, b, difference));
+  if (colors) colors->commit();
+  if (text) write_stdout(summary(a, b, difference, flip));
   return difference.pixels_differ == 0 ? kExitEqual : kExitDifferent;
 }
 

@@ -4,6 +4,7 @@
 #include "app/commands.h"
 #include "app/output.h"
 #include "core/error.h"
+#include "water/surface_keys.h"
 
 namespace shoal::app {
 
@@ -14,7 +15,7 @@ int run_list(const std::string& kind) {
       lines += fmt::format("{:<16} {} ({}){}\n", m.name, m.description, m.source,
                            m.portable ? "" : "; not the same bytes on every machine");
   } else if (kind == "surfaces") {
-    for (const SurfaceInfo& s : surface_infos()) lines += fmt::format("{:<16} {}\n", s.name, s.description);
+    for (const SurfaceKindInfo& s : surface_kinds()) lines += fmt::format("{:<16} {}\n", s.name, s.description);
   } else if (kind == "scenes") {
     for (const ProceduralScene& s : procedural_scenes()) lines += fmt::format("{:<16} {}\n", s.name, s.description);
   } else if (kind == "isas") {

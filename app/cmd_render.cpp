@@ -5,13 +5,13 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/frame_run.h"
 #include "app/json_report.h"
 #include "app/load.h"
 #include "app/output.h"
 #include "app/pictures.h"
 #include "app/progress.h"
 #include "core/error.h"
-#include "core/math.h"
 
 namespace shoal::app {
 namespace {
@@ -20,20 +20,6 @@ using Clock = std::chrono::steady_clock;
 
 double milliseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-// The camera turned left about world up (+y) by k tenths of a degree, from where it stands.
-Camera turned_left(const Camera& camera, std::int64_t k) {
-  if (k == 0) return camera;
-  constexpr float kTenthDegree = 0.00174532925f;
-  const float angle = static_cast<float>(k % 3600) * kTenthDegree;
-  const float s = det_sin(angle), c = det_cos(angle);
-  const auto turn = [&](Vec3f v) { return Vec3f{c * v.x + s * v.z, v.y, c * v.z - s * v.x}; };
-  Camera turned = camera;
-  turned.right_world = turn(camera.right_world);
-  turned.up_world = turn(camera.up_world);
-  turned.forward_world = turn(camera.forward_world);
-  return turned;
 }
 
 bool is_exr(const std::string& path) { return has_ending(path, ".exr"); }
@@ -48,6 +34,7 @@ class Render {
     loaded_ = load_scene(options_.scene, options_.quiet);
     loaded_.scene = Scene{};  // what is drawn has its own copy
     camera_ = &pick_camera(loaded_.render, options_.camera);
+    run_ = std::make_unique<FrameRun>(loaded_, *camera_, options_);
     times_.load_ms = loaded_.load_ms;
     if (options_.repeat > 1) {
       time_frames();
@@ -69,26 +56,15 @@ class Render {
     return options_.frames ? NamePattern("-o", *options_.output).name(frame_number) : *options_.output;
   }
 
-  double time_of(std::int64_t k) const { return options_.time_s + static_cast<double>(k) * options_.step_s; }
-  Camera camera_now(std::int64_t k) const { return camera_at(loaded_.render, *camera_, time_of(k)); }
-
   // With the extra buffers that the outputs need, or bare, as a frame is timed.
   std::unique_ptr<Renderer> make_renderer(bool with_outputs) {
     FrameSettings settings = options_.frame;
     settings.digests = with_outputs && options_.digest;
     settings.keep_linear = with_outputs && options_.output && is_exr(*options_.output);
     if (!settings.keep_linear) settings.aovs = 0;
-    const auto begin = Clock::now();
-    auto renderer = std::make_unique<Renderer>(loaded_.render, settings);
-    times_.build_ms = loaded_.build_ms + milliseconds_since(begin);
+    auto renderer = run_->make_renderer(settings, times_);
     threads_ = renderer->threads();
     return renderer;
-  }
-
-  void count(const Frame& frame) {
-    times_.frames_ms.push_back(frame.frame_ms);
-    times_.stages_ms.push_back(frame.stages_ms);
-    times_.frame_digests.push_back(picture_digest(frame));
   }
 
   // Keeps what the report and a PNG of the first frame need.
@@ -107,20 +83,17 @@ class Render {
   // Warm-up frames, then the counted ones, each from a new camera and at a new time; frame 0 is then drawn again for
   // the outputs, so that no digest or layer is in the times. The bytes are the same by contract.
   void time_frames() {
-    Frame frame;
     {
       const std::unique_ptr<Renderer> renderer = make_renderer(false);
-      Progress progress("frame", options_.warmup + options_.repeat, options_.quiet);
-      for (std::int64_t k = -options_.warmup; k < options_.repeat; ++k) {
-        renderer->render(turned_left(camera_now(k), k), time_of(k), frame);
-        if (k >= 0) count(frame);
+      Progress progress("frame", run_->timed_frames(), options_.quiet);
+      run_->time_frames(*renderer, times_, progress, [&](std::int64_t k, const Frame& frame) {
         if (k == 0) note_first(frame);
-        progress.step_done();
-      }
+      });
     }
     if (needs_outputs()) {
       const double build_ms = times_.build_ms;
-      make_renderer(true)->render(camera_now(0), time_of(0), frame);
+      Frame frame;
+      make_renderer(true)->render(run_->camera_of(0), run_->time_of(0), frame);
       times_.build_ms = build_ms;
       print_digests(frame);
       write_picture(frame, options_.output);
@@ -139,8 +112,8 @@ class Render {
     Frame frame;
     for (std::int64_t k = range.first; k <= range.last; ++k) {
       commit_picture();
-      renderer->render(camera_now(k), time_of(k), frame);
-      count(frame);
+      renderer->render(run_->camera_of(k), run_->time_of(k), frame);
+      count_frame(frame, times_);
       if (k == range.first) note_first(frame);
       print_digests(frame);
       if (options_.output) write_picture(frame, output_name(k));
@@ -194,6 +167,7 @@ class Render {
   Options options_;
   LoadedScene loaded_;
   const PlacedCamera* camera_ = nullptr;
+  std::unique_ptr<FrameRun> run_;
   int threads_ = 0;
   Frame first_;  // see note_first
   RunTimes times_;

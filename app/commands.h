@@ -5,13 +5,14 @@
 #include <optional>
 #include <string>
 
+#include "app/compare_options.h"
 #include "app/options.h"
 
 namespace shoal::app {
 
 struct DiffArguments {
   std::string a, b;
-  std::optional<std::string> json, mask, map, ppd;
+  std::optional<std::string> json, mask, map, flip_map, ppd;
   bool quiet = false;
 };
 
@@ -21,6 +22,7 @@ struct ProbeArguments {
 };
 
 int run_render(const RawOptions& raw);
+int run_compare(const CompareArguments& arguments);
 int run_diff(const DiffArguments& arguments);
 int run_probe(const ProbeArguments& arguments);
 int run_scene(const RawOptions& raw);

@@ -1,4 +1,5 @@
 #include "app/json_report.h"
+#include "water/surface_keys.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -9,14 +10,6 @@
 
 namespace shoal::app {
 namespace {
-
-std::string compiler_name() {
-#if defined(__clang__)
-  return __VERSION__;
-#else
-  return std::string("GCC ") + __VERSION__;
-#endif
-}
 
 // Kibibytes on Linux.
 double peak_rss_mb() {
@@ -51,17 +44,15 @@ void add_water_keys(const RenderScene& scene, Json& settings) {
   if (scene.waters.empty()) return;
   std::vector<Json> bodies;
   for (const WaterBody& body : scene.waters) bodies.push_back(water_json(body));
-  for (const auto& item : bodies.front().items()) {
-    const std::string key = item.key();
+  Json keys = Json::object();
+  for (const Json& body : bodies) keys.update(body);
+  for (const auto& item : keys.items()) {
+    const std::string& key = item.key();
     const std::string name = key == "size" ? "water_size" : key;  // `size` is the frame's
-    const bool same =
-        std::all_of(bodies.begin(), bodies.end(), [&](const Json& b) { return b.at(key) == item.value(); });
-    if (same) {
-      settings[name] = item.value();
-      continue;
-    }
-    settings[name] = Json::array();
-    for (const Json& body : bodies) settings[name].push_back(body.at(key));
+    Json values = Json::array();
+    for (const Json& body : bodies) values.push_back(body.value(key, Json()));
+    const bool same = std::all_of(values.begin(), values.end(), [&](const Json& v) { return v == values.front(); });
+    settings[name] = same ? values.front() : values;
   }
 }
 
@@ -88,6 +79,14 @@ Json median_stages(const RunTimes& times) {
 Json json_ms(double ms) { return json_double(std::round(ms * 1e4) / 1e4); }
 
 }  // namespace
+
+std::string compiler_name() {
+#if defined(__clang__)
+  return __VERSION__;
+#else
+  return std::string("GCC ") + __VERSION__;
+#endif
+}
 
 Json json_float(float value) {
   if (!std::isfinite(value)) return nullptr;
@@ -119,6 +118,34 @@ double median(std::vector<double> values) {
   return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
 }
 
+// The keys in force, with the kind's own values where none were given.
+void add_surface_keys(const SurfaceSettings& settings, Json& json) {
+  const SurfaceSettings s = resolve_surface(settings);
+  std::string name = surface_kind_name(s.kind);
+  for (std::size_t i = 0; i < s.parts.size(); ++i) {
+    name = (i == 0 ? "" : name + "+") + surface_kind_name(s.parts[i].kind);
+  }
+  json["surface"] = name;
+  if (s.kind == SurfaceKind::kFlat) return;
+  if (s.kind == SurfaceKind::kSum && s.slope) json["slope"] = json_float(*s.slope);
+  for (const SurfaceNumber& key : surface_numbers()) {
+    const std::optional<double> value = s.kind == SurfaceKind::kSum ? std::nullopt : key.get(s);
+    if (value)
+      json[key.name] = key.whole ? Json(static_cast<std::int64_t>(*value)) : json_float(static_cast<float>(*value));
+  }
+  if (s.kind != SurfaceKind::kSum) {
+    for (const SurfaceChoice& key : surface_choices()) json[key.name] = key.values[key.get(s)];
+    return;
+  }
+  // Each part's own.
+  json["surface_parts"] = Json::array();
+  for (const SurfaceSettings& part : s.parts) {
+    Json part_json = Json::object();
+    add_surface_keys(part, part_json);
+    json["surface_parts"].push_back(part_json);
+  }
+}
+
 Json water_json(const WaterBody& body) {
   // The outline's extent along the body's own axes: `size`, when the body was given by one.
   float low_x = 0, high_x = 0, low_z = 0, high_z = 0;
@@ -135,7 +162,7 @@ Json water_json(const WaterBody& body) {
   json["depth"] = json_float(body.depth_m);
   json["ior"] = json_float(body.ior);
   json["absorption"] = json_vector(body.absorption_per_m);
-  json["surface"] = surface_name(body.surface.kind);
+  add_surface_keys(body.surface, json);
   json["geometry"] = geometry_name(body.surface.geometry);
   return json;
 }

@@ -26,6 +26,9 @@ Json json_hex(const std::vector<float>& values);
 // Indented text with a line break at its end. Text that is no UTF-8 is repaired.
 std::string json_text(const Json& json);
 
+// What this program was compiled with.
+std::string compiler_name();
+
 // What a run of frames took.
 struct RunTimes {
   std::vector<double> frames_ms;
@@ -41,7 +44,7 @@ Json render_report(const Options& options, const LoadedScene& loaded, const Plac
                    const Frame& first_frame, const RunTimes& times);
 
 // Every option and water key in force.
-Json settings_json(const Options& options, const RenderScene& scene, const PlacedCamera& camera, int threads);
+Json settings_json(const Options& options, const LoadedScene& loaded, const PlacedCamera& camera, int threads);
 
 // One body's water keys.
 Json water_json(const WaterBody& body);

@@ -11,6 +11,7 @@
 #include "core/thread_pool.h"
 #include "scene/environment.h"
 #include "scene/gltf.h"
+#include "water/surface_keys.h"
 
 namespace shoal::app {
 namespace {
@@ -56,7 +57,8 @@ void override_water(const WaterOverrides& overrides, WaterSpec& water) {
   }
   if (overrides.ior) water.ior = *overrides.ior;
   if (overrides.absorption_per_m) water.absorption = *overrides.absorption_per_m;
-  if (overrides.surface) water.surface.kind = *overrides.surface;
+  if (overrides.surface) set_surface_kinds(water.surface, *overrides.surface);
+  for (const auto& change : overrides.surface_changes) change(water.surface);
   if (overrides.geometry) water.surface.geometry = *overrides.geometry;
 }
 

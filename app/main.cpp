@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <new>
 #include <sstream>
 #include <string>
@@ -18,7 +19,7 @@ namespace shoal::app {
 namespace {
 
 constexpr int kExitDone = 0, kExitFailed = 1, kExitUsage = 2;
-constexpr const char* kCommands = "render, diff, probe, scene, info, list";
+constexpr const char* kCommands = "render, compare, diff, probe, scene, info, list";
 
 int report(const std::string& what, int code) {
   std::fputs(one_line("shoal: error: " + what).c_str(), stderr);
@@ -49,29 +50,30 @@ void add_set_option(CLI::App& command, RawOptions& raw) {
       ->take_all();
 }
 
-void add_frame_options(CLI::App& command, RawOptions& raw) {
-  const auto add = [&](const char* name, std::optional<std::string>& value, const char* type, const char* help) {
+using AddOption =
+    std::function<void(const char* name, std::optional<std::string>& value, const char* type, const char* help)>;
+
+AddOption adder(CLI::App& command) {
+  return [&command](const char* name, std::optional<std::string>& value, const char* type, const char* help) {
     add_text_option(command, name, value, help, type);
   };
-  add("--method", raw.method, "NAME", "how water is refracted (shoal list methods); two-phase");
-  add("--methods", raw.methods, "A,B", "of shoal compare");
-  add("--reference", raw.reference, "NAME", "of shoal compare");
+}
+
+// What a frame is, for every command that draws one.
+void add_picture_options(CLI::App& command, RawOptions& raw) {
+  const AddOption add = adder(command);
   add("--size", raw.size, "WxH", "pixels, each side 1 to 16384; 1280x720");
   add("--spp", raw.spp, "N", "samples a pixel, 1 to 256; 1 is the pixel's centre");
   add("--camera", raw.camera, "NAME|INDEX", "the first in node order");
   add("--time", raw.time, "S", "seconds; 0");
   add("--step", raw.step, "S", "frame k has the time + k steps; 1/60");
-  add("--frames", raw.frames, "A:B", "frames A to B, both included, into -o frame.%04d.png");
-  add("--warmup", raw.warmup, "N", "uncounted frames before repeated ones; 3");
-  add("--repeat", raw.repeat, "N",
-      "time N frames, frame k seen by the camera turned k x 0.1 degree left; picture and digests are frame 0's; 1");
   add("--threads", raw.threads, "N", "all that the process may use");
   add("--tile", raw.tile, "N", "pixels, a power of two, 16 to 256; 64");
   add("--isa", raw.isa, "NAME", "instruction set (shoal list isas); the best");
   add("--anisotropy", raw.anisotropy, "N", "probes along the longer side of a pixel in a texture, 1 to 16; 1");
   add("--shadows", raw.shadows, "off|map|rays", "of the sun; map");
   add("--shadow-map", raw.shadow_map, "N", "texels a side of the sun's shadow map, a power of two, 256 to 8192; 4096");
-  add("--reflections", raw.reflections, "environment|scene", "environment");
+  add("--reflections", raw.reflections, "environment|scene", "scene");
   add("--exposure", raw.exposure, "STOPS", "of the PNG; 0");
   add("--tonemap", raw.tonemap, "none|aces", "of the PNG; none");
   add("--background", raw.background, "R,G,B|environment",
@@ -81,9 +83,42 @@ void add_frame_options(CLI::App& command, RawOptions& raw) {
       "equirectangular picture (.hdr .exr .png .jpg) that surrounds and lights the scene; the scene's");
   add("--cache", raw.cache, "DIR", "where filtered environments are kept; $XDG_CACHE_HOME/shoal or ~/.cache/shoal");
   command.add_flag("--no-cache", raw.no_cache, "filter the environment anew and keep nothing");
+}
+
+void add_frame_options(CLI::App& command, RawOptions& raw) {
+  const AddOption add = adder(command);
+  add("--method", raw.method, "NAME", "how water is refracted (shoal list methods); two-phase");
+  add("--methods", raw.methods, "A,B", "of shoal compare");
+  add("--reference", raw.reference, "NAME", "of shoal compare");
+  add_picture_options(command, raw);
+  add("--frames", raw.frames, "A:B", "frames A to B, both included, into -o frame.%04d.png");
+  add("--warmup", raw.warmup, "N", "uncounted frames before repeated ones; 3");
+  add("--repeat", raw.repeat, "N",
+      "time N frames, frame k seen by the camera turned k x 0.1 degree left; picture and digests are frame 0's; 1");
   add("--aov", raw.aov, "A,B", "more layers in an EXR: depth, normal, hit.position, id.triangle, ...");
   add("--json", raw.json, "FILE", "the report; - is standard output, after the digests");
   command.add_flag("--digest", raw.digest, "print `digest STAGE HEX` for each stage, frame after frame");
+  add_set_option(command, raw);
+}
+
+void add_compare_options(CLI::App& command, CompareArguments& compare) {
+  RawOptions& raw = compare.options;
+  const AddOption add = adder(command);
+  add("-o", raw.output, "DIR", "the folder: report.html, metrics.json, pictures; made where there is none");
+  add("--methods", raw.methods, "A,B", "all but the reference (shoal list methods)");
+  add("--reference", raw.reference, "NAME", "what is taken as the truth; ray-traced, until it has come two-phase");
+  add_picture_options(command, raw);
+  add("--warmup", raw.warmup, "N", "uncounted frames before repeated ones; 3");
+  add("--repeat", raw.repeat, "N",
+      "time N frames of each method, frame k seen by the camera turned k x 0.1 degree left; 5");
+  add("--sweep", compare.sweep, "KEY=A,B,C",
+      "also compare at each value, with curves: a key of --set, or view-angle (degrees between the camera's axis and "
+      "the "
+      "water), triangles, time, spp, size, ...");
+  add("--ppd", compare.ppd, "N", "pixels a degree, for FLIP; 67.02");
+  command.add_flag("--yee", compare.yee, "Yee's metric too; slow");
+  command.add_flag("--exr", compare.exr, "each method's frame as an EXR too, with its hit buffers");
+  add("--aov", raw.aov, "A,B", "more layers of those");
   add_set_option(command, raw);
 }
 
@@ -94,6 +129,8 @@ void add_diff_options(CLI::App& command, DiffArguments& diff) {
   add_text_option(command, "--mask", diff.mask, "only pixels that are not black in it (not 0 in its water.mask)",
                   "FILE");
   add_text_option(command, "--map", diff.map, "write the absolute differences", "FILE.png|FILE.exr");
+  add_text_option(command, "--flip-map", diff.flip_map, "write FLIP's error: in colours, or as it is",
+                  "FILE.png|FILE.exr");
   add_text_option(command, "--ppd", diff.ppd, "pixels a degree, for FLIP; 67.02", "N");
   command.add_flag("--quiet", diff.quiet, "no text, only the exit code");
 }
@@ -103,6 +140,26 @@ std::string parse_error_text(const CLI::ParseError& error, const CLI::App& root)
   std::string command = "shoal";
   for (const CLI::App* parsed : root.get_subcommands()) command += " " + parsed->get_name();
   return std::string(error.what()) + "; expected what '" + command + " --help' shows";
+}
+
+// The command line as a shell would take it.
+std::string command_line(int argc, char** argv) {
+  std::string line = "shoal";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const bool plain = !word.empty() && word.find_first_not_of(
+                                            "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                            "0123456789-_=.,:/+@%") == std::string::npos;
+    line += ' ';
+    if (plain) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += '\'';
+  }
+  return line;
 }
 
 bool has_command(CLI::App& root, const std::string& name) {
@@ -117,6 +174,7 @@ int run(int argc, char** argv) {
       "shoal");
   root.set_version_flag("--version", "shoal " SHOAL_VERSION);
   RawOptions raw;
+  CompareArguments compare;
   DiffArguments diff;
   ProbeArguments probe;
   std::string kind;
@@ -126,6 +184,12 @@ int run(int argc, char** argv) {
   add_text_option(render, "-o", raw.output, "the picture; may be left out with --json or --digest",
                   "FILE.png|FILE.exr");
   add_frame_options(render, raw);
+
+  CLI::App& compare_command =
+      *root.add_subcommand("compare", "methods side by side against a reference: report, numbers, pictures");
+  add_scene_options(compare_command, compare.options);
+  add_compare_options(compare_command, compare);
+  compare.command = command_line(argc, argv);
 
   CLI::App& diff_command = *root.add_subcommand("diff", "two pictures: equal, or the first difference");
   add_diff_options(diff_command, diff);
@@ -150,8 +214,6 @@ int run(int argc, char** argv) {
 
   if (argc < 2) return report(std::string("no command; expected one of: ") + kCommands, kExitUsage);
   const std::string first = argv[1];
-  if (first == "compare")
-    return report(std::string("compare: has not come yet; expected one of: ") + kCommands, kExitUsage);
   if (first.rfind("-", 0) != 0 && !has_command(root, first)) {
     return report("command '" + first + "': unknown; expected one of: " + kCommands, kExitUsage);
   }
@@ -166,6 +228,7 @@ int run(int argc, char** argv) {
     return report(parse_error_text(error, root), kExitUsage);
   }
   if (render) return run_render(raw);
+  if (compare_command) return run_compare(compare);
   if (diff_command) return run_diff(diff);
   if (probe_command) return run_probe(probe);
   if (scene) return run_scene(raw);

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "scene/environment.h"
+#include "water/surface_keys.h"
 
 namespace shoal::app {
 namespace {
@@ -26,8 +27,6 @@ constexpr std::int64_t kMaxTriangles = 50'000'000;
 // What is planned, named in the design, and not built yet: refused by name, apart from what does not exist at all.
 const Names kComingMethods = {"liu-2020", "steel-2024",     "narrow-only", "screen-space",
                               "distort",  "distance-field", "block-grid"};
-const Names kComingSurfaces = {"perlin", "ripples", "gradient-waves", "gerstner", "spectrum"};
-const Names kComingWaterKeys = {"slope", "amplitude", "wavelength", "octaves", "speed", "seed"};
 const Names kWaterKeys = {"size", "depth", "ior", "absorption", "surface", "geometry"};
 
 bool contains(const Names& names, std::string_view name) {
@@ -86,14 +85,24 @@ bool set_water_key(WaterOverrides& water, const std::string& key, const std::str
     water.absorption_per_m = read_triple(option, value, 0.0, kMaxAbsorption);
   } else if (key == "surface") {
     Names names;
-    for (const SurfaceInfo& info : surface_infos()) names.emplace_back(info.name);
-    water.surface = surface_infos()[read_choice(option, value, names, kComingSurfaces)].kind;
+    for (const SurfaceKindInfo& info : surface_kinds()) names.emplace_back(info.name);
+    std::vector<SurfaceKind> kinds;
+    for (const std::string& name : split(value, '+')) {
+      kinds.push_back(surface_kinds()[read_choice(option, name, names, {})].kind);
+    }
+    water.surface = kinds;
   } else if (key == "geometry") {
     read_choice(option, value, {"normals"}, {"displaced"});
     water.geometry = WaterGeometry::kNormals;
-  } else if (contains(kComingWaterKeys, key)) {
-    throw UsageError(
-        fmt::format("--set '{}': has not come yet, only waves have it; expected {}", key, join(kWaterKeys)));
+  } else if (const SurfaceNumber* number = find_surface_number(key)) {
+    const double v =
+        number->whole
+            ? static_cast<double>(read_integer(option, value, std::int64_t(number->low), std::int64_t(number->high)))
+            : read_number(option, value, number->low, number->high);
+    water.surface_changes.push_back([number, v](SurfaceSettings& s) { set_surface_number(s, *number, v); });
+  } else if (const SurfaceChoice* choice = find_surface_choice(key)) {
+    const std::size_t v = read_choice(option, value, Names(choice->values.begin(), choice->values.end()), {});
+    water.surface_changes.push_back([choice, v](SurfaceSettings& s) { set_surface_choice(s, *choice, v); });
   } else {
     return false;
   }
@@ -101,7 +110,10 @@ bool set_water_key(WaterOverrides& water, const std::string& key, const std::str
 }
 
 [[noreturn]] void unknown_key(const std::string& key, const MethodInfo* method) {
-  std::string known = "a water key (" + join(kWaterKeys) + ")";
+  Names keys_of_water = kWaterKeys;
+  for (const SurfaceNumber& key_of_surface : surface_numbers()) keys_of_water.emplace_back(key_of_surface.name);
+  for (const SurfaceChoice& key_of_surface : surface_choices()) keys_of_water.emplace_back(key_of_surface.name);
+  std::string known = "a water key (" + join(keys_of_water) + ")";
   if (method) {
     Names keys;
     for (const auto& option : method->options) keys.push_back(option.first);
@@ -289,7 +301,9 @@ void read_cache(const RawOptions& raw, SceneOptions& scene) {
 
 }  // namespace
 
-bool WaterOverrides::any() const { return size_m || depth_m || ior || absorption_per_m || surface || geometry; }
+bool WaterOverrides::any() const {
+  return size_m || depth_m || ior || absorption_per_m || surface || !surface_changes.empty() || geometry;
+}
 
 Options read_options(const RawOptions& raw) {
   if (raw.methods) throw UsageError("--methods: belongs to shoal compare; expected --method NAME");
@@ -315,20 +329,6 @@ SceneOptions read_scene_options(const RawOptions& raw) {
     if (!set_water_key(scene.water, kv.key, kv.value)) unknown_key(kv.key, nullptr);
   }
   return scene;
-}
-
-const std::vector<SurfaceInfo>& surface_infos() {
-  static const std::vector<SurfaceInfo> infos = {
-      {SurfaceKind::kFlat, "flat", "still water: the plane itself"},
-  };
-  return infos;
-}
-
-const char* surface_name(SurfaceKind kind) {
-  for (const SurfaceInfo& info : surface_infos()) {
-    if (info.kind == kind) return info.name;
-  }
-  return "";
 }
 
 const char* geometry_name(WaterGeometry geometry) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,7 +30,8 @@ struct WaterOverrides {
   std::optional<Vec2f> size_m;
   std::optional<float> depth_m, ior;
   std::optional<Vec3f> absorption_per_m;
-  std::optional<SurfaceKind> surface;
+  std::optional<std::vector<SurfaceKind>> surface;  // one, or several: their sum
+  std::vector<std::function<void(SurfaceSettings&)>> surface_changes;
   std::optional<WaterGeometry> geometry;
 
   bool any() const;
@@ -67,18 +69,10 @@ Options read_options(const RawOptions& raw);
 // Of read_options, what makes the scene: for commands without a frame.
 SceneOptions read_scene_options(const RawOptions& raw);
 
-// The names of a surface kind and of a geometry, as `--set` takes them.
-const char* surface_name(SurfaceKind kind);
+// Names as the options take them.
 const char* geometry_name(WaterGeometry geometry);
 const char* shadows_name(Shadows shadows);
 const char* reflections_name(Reflections reflections);
 const char* tone_map_name(ToneMap tone_map);
-
-struct SurfaceInfo {
-  SurfaceKind kind;
-  const char* name;
-  const char* description;
-};
-const std::vector<SurfaceInfo>& surface_infos();
 
 }  // namespace shoal::app

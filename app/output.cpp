@@ -22,7 +22,7 @@ struct TemporarySlot {
   std::atomic<bool> in_use{false};
   char path[PATH_MAX] = {};
 };
-constexpr int kSlots = 8;
+constexpr int kSlots = 256;
 TemporarySlot slots[kSlots];
 
 int remember_temporary(const std::string& path) {
@@ -44,6 +44,10 @@ void forget_temporary(int& slot) {
 extern "C" void remove_temporaries_and_die(int signal_number) {
   for (TemporarySlot& slot : slots) {
     if (slot.in_use.load()) unlink(slot.path);
+  }
+  // A folder, once it is empty.
+  for (TemporarySlot& slot : slots) {
+    if (slot.in_use.load()) rmdir(slot.path);
   }
   std::signal(signal_number, SIG_DFL);
   std::raise(signal_number);
@@ -137,6 +141,60 @@ void OutputFile::commit() {
   if (temporary_.empty()) return;
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, errno);
   temporary_.clear();
+  forget_temporary(slot_);
+}
+
+OutputFolder::OutputFolder(const std::string& path) : path_(path) {
+  struct stat status {};
+  if (stat(path_.c_str(), &status) == 0) {
+    if (!S_ISDIR(status.st_mode)) {
+      throw Error(fmt::format("{}: cannot be written (is a file); expected a folder, or a name for one", path_));
+    }
+  } else {
+    if (mkdir(path_.c_str(), 0777) != 0) {
+      throw Error(
+          fmt::format("{}: cannot be made ({}); expected a writable folder around it", path_, std::strerror(errno)));
+    }
+    made_ = true;
+    slot_ = remember_temporary(path_);
+  }
+  try {
+    check_writable(file_path("report.html"));
+  } catch (...) {
+    discard();
+    throw;
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  files_.clear();
+  discard();
+}
+
+void OutputFolder::discard() {
+  if (made_) rmdir(path_.c_str());
+  made_ = false;
+  forget_temporary(slot_);
+}
+
+std::string OutputFolder::file_path(const std::string& name) const {
+  return path_ + (path_.ends_with('/') ? "" : "/") + name;
+}
+
+void OutputFolder::add(const std::string& name, const std::function<void(std::FILE*)>& write) {
+  auto file = std::make_unique<OutputFile>(file_path(name));
+  write(file->stream());
+  file->finish();
+  files_.push_back(std::move(file));
+}
+
+void OutputFolder::add(const std::string& name, std::string_view bytes) {
+  add(name, [&](std::FILE* stream) { std::fwrite(bytes.data(), 1, bytes.size(), stream); });
+}
+
+void OutputFolder::commit() {
+  for (const auto& file : files_) file->commit();
+  made_ = false;
   forget_temporary(slot_);
 }
 

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdio>
+#include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace shoal::app {
 
@@ -32,6 +35,35 @@ class OutputFile {
   std::string temporary_;  // empty: written directly
   int slot_ = -1;          // in the list of files that a signal removes
   std::FILE* stream_ = nullptr;
+};
+
+// A folder of files that take their places together, once all of them are on the disk.
+//
+// Until commit() files that were there before are as they were, and a folder that was not there is gone at the end,
+// also on a signal. Other files in the folder stay.
+class OutputFolder {
+ public:
+  // Makes the folder where there is none; throws Error where that, or a file in it, is not possible.
+  explicit OutputFolder(const std::string& path);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  // A file of it, to the disk now.
+  void add(const std::string& name, const std::function<void(std::FILE*)>& write);
+  void add(const std::string& name, std::string_view bytes);
+  // In the order in which they were added.
+  void commit();
+
+  std::string file_path(const std::string& name) const;
+
+ private:
+  void discard();
+
+  std::string path_;
+  bool made_ = false;  // by us, and not yet to stay
+  int slot_ = -1;      // in the list of what a signal removes
+  std::vector<std::unique_ptr<OutputFile>> files_;
 };
 
 // Throws Error where `path` could not be written now, and leaves nothing: a long render finds that out before it

@@ -204,6 +204,23 @@ void write_png(std::FILE* file, const std::string& path, const Frame& frame) {
   write_png_bytes(file, path, frame.width_px, frame.height_px, frame.srgb8.data());
 }
 
+std::string png_bytes(int width_px, int height_px, const std::vector<std::uint8_t>& rgb) {
+  const std::string name = "a picture in memory";
+  const auto output = OIIO::ImageOutput::create("png");
+  if (!output) fail(name, "no writer for png", "an OpenImageIO that has one");
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  OIIO::Filesystem::IOProxy* proxy = &memory;
+  OIIO::ImageSpec spec(width_px, height_px, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  spec.attribute("DateTime", "");
+  if (!output->open("picture.png", spec) || !output->write_image(OIIO::TypeDesc::UINT8, rgb.data()) ||
+      !output->close()) {
+    fail(name, "cannot be encoded (" + output->geterror() + ")", "enough memory");
+  }
+  return {bytes.begin(), bytes.end()};
+}
+
 void write_exr(std::FILE* file, const std::string& path, const Frame& frame) {
   std::vector<Source> sources;
   for (std::size_t c = 0; c < 4; ++c) {

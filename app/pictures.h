@@ -13,6 +13,10 @@ namespace shoal::app {
 // 8-bit RGB of the finished picture.
 void write_png(std::FILE* file, const std::string& path, const Frame& frame);
 
+// The same as bytes in memory, of any codes.
+//   rgb  3 a pixel
+std::string png_bytes(int width_px, int height_px, const std::vector<std::uint8_t>& rgb);
+
 // Linear float R, G, B, A and the frame's AOVs as layers, in one part, rows top to bottom; ids, kinds and masks are
 // uint32. Neither file holds a date or a path: the same picture is the same file.
 //

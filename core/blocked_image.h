@@ -51,6 +51,9 @@ struct FrameGrid {
   int regions_x = 0, regions_y = 0;  // 64-pixel regions that cover the frame
   int blocks_x = 0, blocks_y = 0;    // 4-pixel blocks of the padded image: 16 a region
   std::size_t block_count() const { return static_cast<std::size_t>(blocks_x) * static_cast<std::size_t>(blocks_y); }
+  std::size_t region_count() const {
+    return static_cast<std::size_t>(regions_x) * static_cast<std::size_t>(regions_y);
+  }
   std::size_t pixel_slots() const { return block_count() * kBlockPixels; }
   // Index of a block's first pixel slot.
   std::size_t block_offset(int block_x, int block_y) const {

@@ -87,9 +87,11 @@ __attribute__((noinline)) bool blend_block(FrameData& f, FragmentLists& lists, i
 template <class Pass>
 void blend_region(FrameData& f, VisibilityBuffer& opaque, BlendLayer& layer, const Pass& pass, std::size_t region,
                   int thread) {
+  // A body's layers may have a margin; regions and blocks are the same.
+  const int margin = Pass::kFromSurface ? f.layers.margin_px : 0;
+  const std::size_t cell = Pass::kFromSurface ? f.layers.region(f.grid, region) : region;
   bool empty = true;
-  for (const BinItem& item : f.blended.bins.items)
-    empty = empty && item.tile_first[region] == item.tile_first[region + 1];
+  for (const BinItem& item : f.blended.bins.items) empty = empty && item.tile_first[cell] == item.tile_first[cell + 1];
   if (empty) return;
 
   FragmentLists& lists = f.blended.lists[static_cast<std::size_t>(thread)];
@@ -98,9 +100,10 @@ void blend_region(FrameData& f, VisibilityBuffer& opaque, BlendLayer& layer, con
   const FragmentCollector collector(lists, opaque);
   for (bool first = true, again = true; again; first = false) {
     start_round(lists, first);
-    TileRaster<FragmentCollector> raster(opaque, collector, x0, y0, min(x0 + kRegionSize, f.grid.width_px),
-                                         min(y0 + kRegionSize, f.grid.height_px));
-    for (const BinItem& item : f.blended.bins.items) raster.draw(item, static_cast<std::uint32_t>(region));
+    TileRaster<FragmentCollector> raster(opaque, collector, x0 + margin, y0 + margin,
+                                         min(x0 + kRegionSize, f.grid.width_px) + margin,
+                                         min(y0 + kRegionSize, f.grid.height_px) + margin);
+    for (const BinItem& item : f.blended.bins.items) raster.draw(item, static_cast<std::uint32_t>(cell));
     again = false;
     for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
       const int index = ((block.y_px - y0) >> 2) * (kRegionSize / kBlockSize) + ((block.x_px - x0) >> 2);

@@ -14,8 +14,7 @@ namespace shoal {
 // A method that traces rays: every pixel for itself, no stage but this one.
 static void trace_sample(FrameData& f, const MethodKernels& method, ThreadPool& pool, StageClock& clock,
                          StageDigests* digests) {
-  const std::size_t regions = static_cast<std::size_t>(f.grid.regions_x) * static_cast<std::size_t>(f.grid.regions_y);
-  pool.for_each(regions, [&](std::size_t region, int) { method.trace(f, region); });
+  pool.for_each(f.grid.region_count(), [&](std::size_t region, int) { method.trace(f, region); });
   clock.lap("trace");
   if (digests != nullptr) digests->direct(f), digests->shaded(f), clock.skip();
 }
@@ -24,7 +23,8 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
                    StageClock& clock, StageDigests* digests) {
   const std::size_t items = f.bins.items.size();
   const std::size_t tiles = static_cast<std::size_t>(f.bin_grid.tiles_x) * static_cast<std::size_t>(f.bin_grid.tiles_y);
-  const std::size_t regions = static_cast<std::size_t>(f.grid.regions_x) * static_cast<std::size_t>(f.grid.regions_y);
+  const std::size_t layer_tiles = f.tile_active.size();
+  const std::size_t regions = f.grid.region_count();
 
   // 0 Sun: its shadow maps hold the whole scene and are there already (refraction/shadow_map.h); they are drawn by
   // Renderer, once for a still scene, each frame for an animated one.
@@ -53,7 +53,7 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
     pool.for_each(items, [&](std::size_t item, int) { kernels.refracted_front_end(f, water, item); });
     count_capped(f);
     clock.lap("refracted.front_end");
-    pool.for_each(tiles, [&](std::size_t tile, int) {
+    pool.for_each(layer_tiles, [&](std::size_t tile, int) {
       if (f.tile_active[tile] != 0) kernels.draw_tile(f, f.refracted, method.refracted_alpha, &water, nullptr, tile);
     });
     clock.lap("refracted.visibility");
@@ -63,7 +63,7 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
       const WaterPass mirrored = mirrored_pass(water);
       pool.for_each(items, [&](std::size_t item, int) { kernels.mirrored_front_end(f, mirrored, item); });
       clock.lap("reflected.front_end");
-      pool.for_each(tiles, [&](std::size_t tile, int) {
+      pool.for_each(layer_tiles, [&](std::size_t tile, int) {
         if (f.tile_active[tile] != 0)
           kernels.draw_tile(f, f.mirrored, kernels.mirrored_alpha, &mirrored, nullptr, tile);
       });

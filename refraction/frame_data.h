@@ -95,15 +95,32 @@ struct Blended {
   bool any() const { return !chunks.empty(); }
 };
 
+// The grid of the refracted and the mirrored layer: the frame's, or, where waves bend rays out of the frame, with a
+// margin all round. Margins are whole regions, so a frame's block is a block of the layer.
+struct LayerGrid {
+  FrameGrid grid;
+  BinGrid tiles, regions;
+  int margin_px = 0;
+  std::size_t offset(int x_px, int y_px) const {  // of the block at a pixel of the frame
+    return grid.block_offset((x_px + margin_px) >> 2, (y_px + margin_px) >> 2);
+  }
+  std::size_t region(const FrameGrid& frame, std::size_t of_frame) const {
+    const std::size_t margin = static_cast<std::size_t>(margin_px / kRegionSize),
+                      across = static_cast<std::size_t>(frame.regions_x);
+    return (of_frame / across + margin) * static_cast<std::size_t>(grid.regions_x) + of_frame % across + margin;
+  }
+};
+inline constexpr int kWaveMargin_px = 128;
+
 // One warped pass over the scene for a body of water: refracted, or mirrored.
 struct WaterPass {
   const WaterBody* body = nullptr;
   const WaterSurface* surface = nullptr;  // at this time; null where it is flat
-  std::int32_t index = 0;  // of the body
-  BroadPhase optics;       // the body's plane with its true index
-  BroadPhase map;          // the map that geometry is drawn with: the method's choice
-  Plane keep;              // world clip plane: what the pass draws
-  Frustum frustum;         // of the region's bounds
+  std::int32_t index = 0;                 // of the body
+  BroadPhase optics;                      // the body's plane with its true index
+  BroadPhase map;                         // the map that geometry is drawn with: the method's choice
+  Plane keep;                             // world clip plane: what the pass draws
+  Frustum frustum;                        // of the region's bounds
   PassSettings pass;
   bool mirrored = false;  // this is the mirrored pass of the two
   bool mirrors = false;   // the surface shows the scene on the eye's own side, not the background alone
@@ -128,6 +145,7 @@ struct FrameData {
   FrameSettings settings;
   FrameGrid grid;
   BinGrid bin_grid;
+  LayerGrid layers;
   GeometryView geometry;
   GeometryView water_geometry;                     // the outlines of the bodies of water
   SunShadows shadows;                              // of the sun, which stands still as the scene does
@@ -139,7 +157,7 @@ struct FrameData {
   // This frame.
   double time_s = 0;
   std::vector<WaterSurface> surfaces;  // of the bodies, at this time
-  View view;  // of this sample
+  View view;                           // of this sample
   Frustum frustum;
   PassSettings direct_pass;
   int sample = 0, sample_count = 1;
@@ -152,8 +170,9 @@ struct FrameData {
   PassBins water_bins;
   Blended blended;
   VisibilityBuffer direct, refracted, mirrored;
-  std::vector<std::uint8_t> region_of_body;  // [regions] this pass's region, 64-pixel cells
-  std::vector<std::uint8_t> tile_active;     // [tiles] tiles that the region touches
+  std::vector<std::uint8_t> region_of_body;  // [regions] 64-pixel cells that show this pass's body, or touch such
+  std::vector<std::uint8_t> layer_regions;   // [layers' regions] that are drawn
+  std::vector<std::uint8_t> tile_active;     // [layers' tiles] that those touch
   std::vector<WaterPass> water;              // one a body, whether it shows or not
   HitBuffers hits;
   HitPoints hit_points;

@@ -49,8 +49,8 @@ template <class Program>
 void blended_item(FrameData& f, const Program& program, const PassSettings& like, bool in_region, std::size_t item) {
   PassSettings pass = like;
   pass.skip_blended = false;
-  pass.grid = f.blended.grid;
-  pass.tile_active = in_region ? f.region_of_body.data() : nullptr;
+  pass.grid = in_region ? f.layers.regions : f.blended.grid;
+  pass.tile_active = in_region ? f.layer_regions.data() : nullptr;
   PassBins& bins = f.blended.bins;
   const std::uint32_t first = static_cast<std::uint32_t>(item) * bins.chunks_per_item;
   const std::uint32_t left = bins.chunk_count - first;
@@ -91,18 +91,21 @@ struct PassAlpha {
   const WaterPass* water;
   AlphaTest test;
   WideM operator()(std::int32_t id, int x_px, int y_px, WideM cover) const {
-    return mask_from_bits(test(f, water, id, x_px, y_px, to_bits(cover)));
+    // Of the frame: the layers of a body have a margin.
+    const int margin = water != nullptr ? f.layers.margin_px : 0;
+    return mask_from_bits(test(f, water, id, x_px - margin, y_px - margin, to_bits(cover)));
   }
 };
 
 void draw_tile(FrameData& f, VisibilityBuffer& out, AlphaTest alpha, const WaterPass* water, const PassBins* early,
                std::size_t tile) {
-  const int size = f.bin_grid.tile_px;
-  const int x0 = static_cast<int>(tile % static_cast<std::size_t>(f.bin_grid.tiles_x)) * size;
-  const int y0 = static_cast<int>(tile / static_cast<std::size_t>(f.bin_grid.tiles_x)) * size;
+  const BinGrid& tiles = water != nullptr ? f.layers.tiles : f.bin_grid;
+  const int size = tiles.tile_px;
+  const int x0 = static_cast<int>(tile % static_cast<std::size_t>(tiles.tiles_x)) * size;
+  const int y0 = static_cast<int>(tile / static_cast<std::size_t>(tiles.tiles_x)) * size;
   const PassAlpha pass_alpha{f, water, alpha};
-  TileRaster<PassAlpha> raster(out, pass_alpha, x0, y0, min(x0 + size, f.grid.width_px),
-                               min(y0 + size, f.grid.height_px));
+  TileRaster<PassAlpha> raster(out, pass_alpha, x0, y0, min(x0 + size, out.grid.width_px),
+                               min(y0 + size, out.grid.height_px));
   raster.clear();
   if (early != nullptr)
     for (const BinItem& item : early->items) raster.draw(item, static_cast<std::uint32_t>(tile));

@@ -24,8 +24,9 @@ __attribute__((noinline)) LayerPoint layer_point(const FrameData& f, const Layer
   const ClipVertex<WideF> clip = project(f.view, image);
   // Never behind the eye: what is refracted or mirrored is beyond the plane.
   const WideF inverse_w = WideF(1.0f) / max(clip.w, WideF(1e-6f));
-  return {clip.x * inverse_w + WideF(f.view.centre_px.x), clip.y * inverse_w + WideF(f.view.centre_px.y),
-          clip.z * inverse_w};
+  const float margin = static_cast<float>(f.layers.margin_px);
+  return {clip.x * inverse_w + WideF(f.view.centre_px.x + margin),
+          clip.y * inverse_w + WideF(f.view.centre_px.y + margin), clip.z * inverse_w};
 }
 
 // Where the ray leaves the scene's box.

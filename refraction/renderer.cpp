@@ -13,6 +13,7 @@
 #include "refraction/method_options.h"
 #include "refraction/sample_positions.h"
 #include "refraction/stage_digests.h"
+#include "refraction/water_region.h"
 
 namespace shoal {
 
@@ -83,6 +84,9 @@ struct Renderer::Impl {
     f.settings = settings;
     f.grid = make_frame_grid(settings.width_px, settings.height_px);
     f.bin_grid = make_bin_grid(settings.width_px, settings.height_px, settings.tile_px);
+    const bool waves = std::any_of(scene.waters.begin(), scene.waters.end(),
+                                   [](const WaterBody& body) { return body.surface.kind != SurfaceKind::kFlat; });
+    f.layers = make_layer_grid(f.grid, settings.tile_px, waves ? kWaveMargin_px : 0);
     f.geometry = view_of(scene.geometry, scene.materials);
     f.water_geometry = view_of(outlines, outline_materials);
     filter_materials();
@@ -138,10 +142,12 @@ struct Renderer::Impl {
     f.direct.resize(f.grid);
     const std::size_t regions = static_cast<std::size_t>(f.grid.regions_x) * static_cast<std::size_t>(f.grid.regions_y);
     f.region_of_body.resize(regions);
-    f.tile_active.resize(static_cast<std::size_t>(f.bin_grid.tiles_x) * static_cast<std::size_t>(f.bin_grid.tiles_y));
+    f.layer_regions.resize(f.layers.grid.region_count());
+    f.tile_active.resize(static_cast<std::size_t>(f.layers.tiles.tiles_x) *
+                         static_cast<std::size_t>(f.layers.tiles.tiles_y));
     if (!scene.waters.empty()) {
-      f.refracted.resize(f.grid);
-      f.mirrored.resize(f.grid);
+      f.refracted.resize(f.layers.grid);
+      f.mirrored.resize(f.layers.grid);
       f.hits.resize(f.grid);
     }
     if (captures()) {

@@ -58,7 +58,7 @@ struct FrameSettings {
   int anisotropy = 1;                                 // 1 (none) to 16
   Shadows shadows = Shadows::kMap;
   int shadow_map_px = 4096;  // a power of two, 256 to 8192
-  Reflections reflections = Reflections::kEnvironment;
+  Reflections reflections = Reflections::kScene;
   float exposure_stops = 0;
   ToneMap tone_map = ToneMap::kNone;
   std::uint32_t aovs = 0;    // bit 1 << int(Aov)

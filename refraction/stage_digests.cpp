@@ -55,13 +55,13 @@ void StageDigests::direct(const FrameData& f) {
 }
 
 void StageDigests::refracted(const FrameData& f) {
-  add_rows(stage("visibility.refracted"), f.grid, f.refracted.id, &f.region_of_body);
-  add_rows(stage("depth.refracted"), f.grid, f.refracted.depth, &f.region_of_body);
+  add_rows(stage("visibility.refracted"), f.layers.grid, f.refracted.id, &f.layer_regions);
+  add_rows(stage("depth.refracted"), f.layers.grid, f.refracted.depth, &f.layer_regions);
 }
 
 void StageDigests::reflected(const FrameData& f) {
-  add_rows(stage("visibility.reflected"), f.grid, f.mirrored.id, &f.region_of_body);
-  add_rows(stage("depth.reflected"), f.grid, f.mirrored.depth, &f.region_of_body);
+  add_rows(stage("visibility.reflected"), f.layers.grid, f.mirrored.id, &f.layer_regions);
+  add_rows(stage("depth.reflected"), f.layers.grid, f.mirrored.depth, &f.layer_regions);
 }
 
 void StageDigests::blended(const FrameData& f) {

@@ -87,7 +87,8 @@ struct MirroredProgram : ClippedByWater {
     return project(view, mirrored_position(water.optics, position_world));
   }
   SHOAL_INLINE bool box_outside_view(Vec3f lo, Vec3f hi) const {
-    const Vec3f centre = mirrored_position(water.optics, (lo + hi) * 0.5f), half = (hi - lo) * 0.5f, n = water.optics.normal;
+    const Vec3f centre = mirrored_position(water.optics, (lo + hi) * 0.5f), half = (hi - lo) * 0.5f,
+                n = water.optics.normal;
     // Rows of I - 2 n n^T, absolute.
     auto reach = [&](float a, float b, float c) { return abs(a) * half.x + abs(b) * half.y + abs(c) * half.z; };
     const Vec3f extent{reach(1.0f - 2.0f * n.x * n.x, 2.0f * n.x * n.y, 2.0f * n.x * n.z),

@@ -49,6 +49,62 @@ void place_water(FrameData& f, const MethodKernels& method) {
   }
 }
 
+// What of the layers is drawn for a body that shows in these regions of the frame, first to last: those, or, where
+// waves bend rays away, all.
+struct RegionBox {
+  int x0, y0, x1, y1;
+};
+static void draw_layers_at(FrameData& f, WaterPass& water, RegionBox box) {
+  const LayerGrid& layers = f.layers;
+  std::vector<std::uint8_t>& region = f.layer_regions;
+  if (water.surface != nullptr) {
+    std::fill(region.begin(), region.end(), std::uint8_t{1});
+    box = {0, 0, layers.grid.regions_x - 1, layers.grid.regions_y - 1};
+  } else {
+    const int margin = layers.margin_px / kRegionSize;
+    std::fill(region.begin(), region.end(), std::uint8_t{0});
+    for (std::size_t r = 0; r < f.region_of_body.size(); ++r) region[layers.region(f.grid, r)] = f.region_of_body[r];
+    box = {box.x0 + margin, box.y0 + margin, box.x1 + margin, box.y1 + margin};
+  }
+  std::fill(f.tile_active.begin(), f.tile_active.end(), std::uint8_t{0});
+  const BinGrid& grid = layers.tiles;
+  const int nx = layers.grid.regions_x, ny = layers.grid.regions_y;
+  for (int ty = 0; ty < grid.tiles_y; ++ty)
+    for (int tx = 0; tx < grid.tiles_x; ++tx) {
+      const int rx0 = (tx << grid.tile_shift) / kRegionSize, ry0 = (ty << grid.tile_shift) / kRegionSize;
+      const int rx1 = std::min((((tx + 1) << grid.tile_shift) - 1) / kRegionSize, nx - 1);
+      const int ry1 = std::min((((ty + 1) << grid.tile_shift) - 1) / kRegionSize, ny - 1);
+      std::uint8_t active = 0;
+      for (int y = ry0; y <= ry1; ++y)
+        for (int x = rx0; x <= rx1; ++x)
+          active = static_cast<std::uint8_t>(active | region[static_cast<std::size_t>(y * nx + x)]);
+      f.tile_active[static_cast<std::size_t>(ty * grid.tiles_x + tx)] = active;
+    }
+
+  const int margin = layers.margin_px;
+  const float shift = static_cast<float>(margin);
+  PassSettings& pass = water.pass;
+  pass = f.direct_pass;
+  pass.width_px = layers.grid.width_px, pass.height_px = layers.grid.height_px;
+  pass.centre_px = {pass.centre_px.x + shift, pass.centre_px.y + shift};
+  pass.grid = grid;
+  pass.x_min = box.x0 * kRegionSize, pass.y_min = box.y0 * kRegionSize;
+  pass.x_max = std::min((box.x1 + 1) * kRegionSize, layers.grid.width_px) - 1;
+  pass.y_max = std::min((box.y1 + 1) * kRegionSize, layers.grid.height_px) - 1;
+  pass.tile_active = f.tile_active.data();
+  water.frustum =
+      make_frustum(f.view, pass.x_min - margin, pass.y_min - margin, pass.x_max - margin, pass.y_max - margin);
+}
+
+LayerGrid make_layer_grid(const FrameGrid& frame, int tile_px, int margin_px) {
+  LayerGrid layers;
+  layers.margin_px = margin_px;
+  layers.grid = make_frame_grid(frame.width_px + 2 * margin_px, frame.height_px + 2 * margin_px);
+  layers.tiles = make_bin_grid(layers.grid.width_px, layers.grid.height_px, tile_px);
+  layers.regions = make_bin_grid(layers.grid.width_px, layers.grid.height_px, kRegionSize);
+  return layers;
+}
+
 bool find_region(FrameData& f, const FrameKernels& kernels, WaterPass& water, ThreadPool& pool) {
   const int nx = f.grid.regions_x, ny = f.grid.regions_y;
   const std::size_t regions = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
@@ -78,32 +134,7 @@ bool find_region(FrameData& f, const FrameKernels& kernels, WaterPass& water, Th
           x0 = std::min(x0, i), y0 = std::min(y0, j), x1 = std::max(x1, i), y1 = std::max(y1, j);
         }
     }
-  // Rays that waves bend look farther.
-  if (water.surface != nullptr) {
-    std::fill(region.begin(), region.end(), std::uint8_t{1});
-    x0 = y0 = 0, x1 = nx - 1, y1 = ny - 1;
-  }
-  std::fill(f.tile_active.begin(), f.tile_active.end(), std::uint8_t{0});
-  const BinGrid& grid = f.bin_grid;
-  for (int ty = 0; ty < grid.tiles_y; ++ty)
-    for (int tx = 0; tx < grid.tiles_x; ++tx) {
-      const int rx0 = (tx << grid.tile_shift) / kRegionSize, ry0 = (ty << grid.tile_shift) / kRegionSize;
-      const int rx1 = std::min((((tx + 1) << grid.tile_shift) - 1) / kRegionSize, nx - 1);
-      const int ry1 = std::min((((ty + 1) << grid.tile_shift) - 1) / kRegionSize, ny - 1);
-      std::uint8_t active = 0;
-      for (int y = ry0; y <= ry1; ++y)
-        for (int x = rx0; x <= rx1; ++x)
-          active = static_cast<std::uint8_t>(active | region[static_cast<std::size_t>(y * nx + x)]);
-      f.tile_active[static_cast<std::size_t>(ty * grid.tiles_x + tx)] = active;
-    }
-
-  PassSettings& pass = water.pass;
-  pass = f.direct_pass;
-  pass.x_min = x0 * kRegionSize, pass.y_min = y0 * kRegionSize;
-  pass.x_max = std::min((x1 + 1) * kRegionSize, f.grid.width_px) - 1;
-  pass.y_max = std::min((y1 + 1) * kRegionSize, f.grid.height_px) - 1;
-  pass.tile_active = f.tile_active.data();
-  water.frustum = make_frustum(f.view, pass.x_min, pass.y_min, pass.x_max, pass.y_max);
+  draw_layers_at(f, water, {x0, y0, x1, y1});
   return true;
 }
 

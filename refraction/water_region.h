@@ -10,8 +10,10 @@ namespace shoal {
 // Sets f.water (one pass a body) and f.eye_in_water for this view.
 void place_water(FrameData& f, const MethodKernels& method);
 
-// Sets f.region_of_body, f.tile_active and the pass's bounds to what the narrow phase can reach of this body: its
-// visible pixels and a margin, on the fixed 64-pixel grid. Returns false where the body does not show.
+LayerGrid make_layer_grid(const FrameGrid& frame, int tile_px, int margin_px);
+
+// Sets f.region_of_body, f.layer_regions, f.tile_active and the pass's bounds to what the narrow phase can reach of
+// this body: its visible pixels and a margin, on the fixed 64-pixel grid. Returns false where the body does not show.
 bool find_region(FrameData& f, const FrameKernels& kernels, WaterPass& water, ThreadPool& pool);
 
 // The pass that draws what the surface mirrors back to an eye under it.

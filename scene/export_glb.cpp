@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "scene/export_glb_file.h"
+#include "scene/export_glb_water.h"
 #include "scene/images.h"
 #include "scene/transform.h"
 
@@ -186,17 +187,6 @@ void GlbWriter::add_scene() {
   }
   root_["scene"] = 0;
   root_["scenes"] = json::array({scene.is_null() ? json::object() : scene});
-}
-
-json water_json(const WaterSpec& water) {
-  json out;
-  if (water.has_size) out["size"] = {exact(water.size_x), exact(water.size_z)};
-  if (water.has_depth) out["depth"] = exact(water.depth);
-  out["ior"] = exact(water.ior);
-  out["absorption"] = exact(water.absorption);
-  out["surface"] = {{"type", "flat"}};
-  out["geometry"] = water.surface.geometry == WaterGeometry::kDisplaced ? "displaced" : "normals";
-  return out;
 }
 
 json GlbWriter::node_json(const Node& node) const {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "scene/gltf_internal.h"
+#include "water/surface_keys.h"
 
 namespace shoal::gltf {
 namespace {
@@ -12,9 +13,6 @@ using tinygltf::Value;
 
 // Read from `extras.water` and from flat keys such as `water_ior`; the flat ones win.
 constexpr const char* kBodyKeys[] = {"size", "depth", "ior", "absorption", "surface", "geometry"};
-constexpr const char* kSurfaceKeys[] = {"type", "slope", "amplitude", "wavelength", "octaves", "speed", "seed"};
-constexpr const char* kFutureSurfaces[] = {"perlin", "ripples", "gradient-waves", "gerstner", "spectrum"};
-
 template <std::size_t N>
 bool is_one_of(const std::string& text, const char* const (&list)[N]) {
   return std::find(std::begin(list), std::end(list), text) != std::end(list);
@@ -57,29 +55,96 @@ std::vector<float> numbers(const Document& document, const Value& value, std::si
   return result;
 }
 
-void read_surface_type(Document& document, const Value& value, const std::string& what, WaterSpec& water) {
+std::string kind_names() {
+  std::string text;
+  for (const SurfaceKindInfo& info : surface_kinds()) text += (text.empty() ? "" : ", ") + std::string(info.name);
+  return text;
+}
+
+// A kind's name, or several with + between: their sum.
+void read_surface_type(Document& document, const Value& value, const std::string& what, SurfaceSettings& surface) {
   if (!value.IsString()) fail(document.path, what + " is no name", "expected the type of a surface, such as flat");
   const std::string& type = value.Get<std::string>();
-  if (type == "flat") {
-    water.surface.kind = SurfaceKind::kFlat;
-  } else if (is_one_of(type, kFutureSurfaces)) {
-    water.surface.kind = SurfaceKind::kFlat;
-    warn(document, "water surface '" + type + "' is not read yet: drawn flat");
-  } else {
-    fail(document.path, what + " is '" + one_line(type, 40) + "'", "expected flat, " + joined(kFutureSurfaces));
+  std::vector<SurfaceKind> kinds;
+  for (std::size_t start = 0; start <= type.size();) {
+    const std::size_t end = std::min(type.find('+', start), type.size());
+    const std::string name = type.substr(start, end - start);
+    const auto& infos = surface_kinds();
+    const auto info = std::find_if(infos.begin(), infos.end(), [&](const auto& i) { return name == i.name; });
+    if (info == infos.end()) fail(document.path, what + " is '" + one_line(type, 40) + "'", "expected " + kind_names());
+    kinds.push_back(info->kind);
+    start = end + 1;
+  }
+  set_surface_kinds(surface, kinds);
+}
+
+bool is_surface_key(const std::string& key) {
+  return key == "type" || find_surface_number(key) != nullptr || find_surface_choice(key) != nullptr;
+}
+
+// Any key of is_surface_key but the type, which says what the others are set on and comes first.
+void read_surface_key(Document& document, const std::string& key, const Value& value, const std::string& what,
+                      SurfaceSettings& surface) {
+  if (const SurfaceNumber* number = find_surface_number(key)) {
+    if (!value.IsNumber()) fail(document.path, what + " is no number", std::string("expected ") + number->expected);
+    const double v = value.GetNumberAsDouble();
+    if (!(v >= number->low && v <= number->high) || (number->whole && v != std::floor(v)))
+      fail(document.path, what + " is wrong", std::string("expected ") + number->expected);
+    set_surface_number(surface, *number, v);
+  } else if (const SurfaceChoice* choice = find_surface_choice(key)) {
+    const std::string name = value.IsString() ? value.Get<std::string>() : std::string();
+    std::string expected;
+    for (std::size_t i = 0; i < choice->values.size(); ++i) {
+      if (name == choice->values[i]) {
+        set_surface_choice(surface, *choice, i);
+        return;
+      }
+      expected += (i == 0 ? "" : " or ") + std::string(choice->values[i]);
+    }
+    fail(document.path, what + " is wrong", "expected " + expected);
   }
 }
 
-void read_surface(Document& document, const Value& value, const std::string& what, WaterSpec& water) {
+void read_drops(Document& document, const Value& value, const std::string& what, SurfaceSettings& surface) {
+  const std::string expected = "a list of [x, z, time], metres and seconds";
+  if (!value.IsArray() || value.ArrayLen() > 256) fail(document.path, what + " is wrong", "expected " + expected);
+  surface.drops.clear();
+  for (std::size_t i = 0; i < value.ArrayLen(); ++i) {
+    const auto drop = numbers(document, value.Get(static_cast<int>(i)), 3, {-1e6, 1e6, false, expected.c_str()}, what);
+    surface.drops.push_back({drop[0], drop[1], drop[2]});
+  }
+}
+
+void read_surface(Document& document, const Value& value, const std::string& what, SurfaceSettings& surface,
+                  int depth) {
   if (!value.IsObject()) {
-    read_surface_type(document, value, what, water);
+    read_surface_type(document, value, what, surface);
     return;
   }
+  if (value.Has("parts")) {
+    const Value& parts = value.Get("parts");
+    if (depth > 0 || !parts.IsArray() || parts.ArrayLen() == 0 || parts.ArrayLen() > 16)
+      fail(document.path, what + ".parts is wrong", "expected a list of 1 to 16 surfaces without parts of their own");
+    surface.kind = SurfaceKind::kSum;
+    for (std::size_t i = 0; i < parts.ArrayLen(); ++i) {
+      const std::string where = what + ".parts[" + std::to_string(i) + "]";
+      SurfaceSettings part;
+      read_surface(document, parts.Get(static_cast<int>(i)), where, part, depth + 1);
+      if (part.kind == SurfaceKind::kSum) fail(document.path, where + " is a sum", "expected a type without +");
+      surface.parts.push_back(part);
+    }
+  } else if (value.Has("type")) {
+    read_surface_type(document, value.Get("type"), what + ".type", surface);
+  }
+  if (value.Has("slope") && value.Has("amplitude"))
+    fail(document.path, what + " has a slope and an amplitude", "expected one of them");
   for (const std::string& key : value.Keys()) {
-    if (key == "type") {
-      read_surface_type(document, value.Get(key), what + ".type", water);
-    } else if (is_one_of(key, kSurfaceKeys)) {
-      if (!value.Get(key).IsNumber()) fail(document.path, what + "." + key + " is no number", "expected one");
+    const std::string where = what + "." + one_line(key, 40);
+    if (key == "type" || key == "parts") continue;
+    if (key == "drops") {
+      read_drops(document, value.Get(key), where, surface);
+    } else if (is_surface_key(key)) {
+      read_surface_key(document, key, value.Get(key), where, surface);
     } else {
       warn(document, "water surface key '" + one_line(key, 40) + "' is not known");
     }
@@ -103,7 +168,7 @@ void read_key(Document& document, const std::string& key, const Value& value, co
     const auto rgb = numbers(document, value, 3, {0, 1e9, false, "[r, g, b] in 1/m, 0 or more"}, what);
     water.absorption = {rgb[0], rgb[1], rgb[2]};
   } else if (key == "surface") {
-    read_surface(document, value, what, water);
+    read_surface(document, value, what, water.surface, 0);
   } else if (key == "geometry") {
     const std::string name = value.IsString() ? value.Get<std::string>() : std::string();
     if (name != "normals" && name != "displaced")
@@ -170,19 +235,22 @@ bool read_water(Document& document, const Value& extras, const std::string& labe
     if (!is_water) return false;
   }
   const std::string prefix = "water_";
+  // The type first: the surface's other keys are set on it.
+  for (const char* name : {"water_surface", "water_type"}) {
+    if (!extras.Has(name)) continue;
+    read_surface(document, extras.Get(name), label + ".extras." + name, water.surface, 0);
+    is_water = true;
+  }
   for (const std::string& name : extras.Keys()) {
     if (name.rfind(prefix, 0) != 0) continue;
     const std::string key = name.substr(prefix.size());
     const std::string what = label + ".extras." + one_line(name, 40);
+    if (key == "surface" || key == "type") continue;
     if (is_one_of(key, kBodyKeys)) {
       read_key(document, key, extras.Get(name), what, water);
       is_water = true;
-    } else if (is_one_of(key, kSurfaceKeys)) {
-      if (key == "type") {
-        read_surface_type(document, extras.Get(name), what, water);
-      } else if (!extras.Get(name).IsNumber()) {
-        fail(document.path, what + " is no number", "expected one");
-      }
+    } else if (is_surface_key(key)) {
+      read_surface_key(document, key, extras.Get(name), what, water.surface);
       is_water = true;
     } else {
       warn(document, "extras key '" + one_line(name, 40) + "' is not known");

@@ -9,7 +9,7 @@
 namespace shoal {
 namespace {
 
-constexpr int kSlopeSamples = 16384;
+constexpr int kSlopeSamples = 16384, kTrochoidSamples = 4096;
 // Of ripples, which live and die: prime, so that drops at regular intervals are met at all ages.
 constexpr int kRippleTimes = 37, kRippleSamples = 2048;
 
@@ -38,7 +38,11 @@ double rms_slope(const std::vector<SurfaceModel::Part>& parts, const PlaneExtent
   for (const auto& part : parts) {
     if (part.settings.kind == SurfaceKind::kRipples) fading = &part;
   }
-  if (fading == nullptr) return std::sqrt(mean_square_slope(at_time(parts, extent, 0.0), extent, kSlopeSamples));
+  if (fading == nullptr) {
+    const WaterSurface surface = at_time(parts, extent, 0.0);
+    const int samples = surface.trochoids.size() != 0 ? kTrochoidSamples : kSlopeSamples;
+    return std::sqrt(mean_square_slope(surface, extent, samples));
+  }
   // From the first drop to the end of the last one's life.
   const SurfaceSettings& s = fading->settings;
   double first = 0, last = 0;
@@ -61,7 +65,7 @@ double rms_slope(const std::vector<SurfaceModel::Part>& parts, const PlaneExtent
 void scale_to_slope(std::vector<SurfaceModel::Part>& parts, const PlaneExtent& extent, float slope) {
   bool linear = true;
   for (const auto& part : parts) linear = linear && part.settings.kind != SurfaceKind::kGerstner;
-  for (int round = 0; round < (linear ? 1 : 6); ++round) {
+  for (int round = 0; round < (linear ? 1 : 4); ++round) {
     const double measured = rms_slope(parts, extent);
     const double factor = measured > 0 ? static_cast<double>(slope) / measured : 0.0;
     for (auto& part : parts) part.amplitude_m = static_cast<float>(static_cast<double>(part.amplitude_m) * factor);
@@ -86,7 +90,8 @@ std::vector<SurfaceModel::Part> flattened(const SurfaceSettings& settings, const
     if (settings.slope) scale_to_slope(parts, measured_extent(extent, settings), *settings.slope);
     return parts;
   }
-  parts.push_back({settings, settings.amplitude_m.value_or(1.0f)});
+  parts.push_back({settings, settings.amplitude_m.value_or(1.0f), {}});
+  if (settings.kind == SurfaceKind::kSpectrum) parts[0].waves = surface_parts::spectrum_waves(settings);
   if (settings.slope) {
     // Near the answer already: trochoids fold when they are too high.
     if (settings.kind == SurfaceKind::kGerstner) parts[0].amplitude_m = 0.1f * *settings.slope * *settings.wavelength_m;
@@ -113,6 +118,9 @@ WaterSurface at_time(const std::vector<SurfaceModel::Part>& parts, const PlaneEx
         break;
       case SurfaceKind::kGerstner:
         surface_parts::add_trochoids(request, surface);
+        break;
+      case SurfaceKind::kSpectrum:
+        surface_parts::add_spectrum(request, part.waves, surface);
         break;
       case SurfaceKind::kFlat:
       case SurfaceKind::kSum:

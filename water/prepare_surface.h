@@ -13,6 +13,7 @@ struct SurfaceModel {
   struct Part {
     SurfaceSettings settings;  // resolved, no sum
     float amplitude_m = 0;
+    std::vector<float> waves;  // spectrum: real and imaginary part of every wave at amplitude 1
   };
   SurfaceSettings settings;  // resolved
   PlaneExtent extent{0, 0, 0, 0};
@@ -22,7 +23,7 @@ struct SurfaceModel {
 // The smallest rectangle of the plane that holds the body's outline.
 PlaneExtent plane_extent(const WaterBody& body);
 
-// Finds the amplitudes. Where a slope is asked for, its RMS over the extent is measured on a fixed set of 16384 points
+// Finds the amplitudes. Where a slope is asked for, its RMS over the extent is measured on a fixed set of points
 // (Roberts' R2 sequence) at time 0, of ripples over a life of theirs, and met within 5 % (test_surface.cpp).
 // At other times a body only a few waves across has another RMS, as it must; it is constant on the average.
 //   extent   metres; of no area: a square of eight waves' side is measured instead

@@ -41,12 +41,22 @@ struct NormalGrid {
   float min_x_m, min_z_m, cells_per_m_x, cells_per_m_z;
 };
 
+// Coefficients of a quadratic B-spline on a square grid, one every cell: coefficient (i, j) belongs to
+// (min_x_m + i / cells_per_m, min_z_m + j / cells_per_m).
+struct SplineGrid {
+  std::int32_t first;  // in WaterSurface::grid_values: rows along x
+  std::int32_t count_x, count_z;
+  std::int32_t wraps;  // 1: repeats, the counts are powers of two; 0: beyond the edge as at it
+  float min_x_m, min_z_m, cells_per_m;
+};
+
 struct WaterSurface {
   // The height is the sum of all of these.
   PodVector<NoiseLayer> noise;
   PodVector<RippleSource> ripples;
   PodVector<TrochoidWave> trochoids;
   PodVector<NormalGrid> normal_grids;
+  PodVector<SplineGrid> spline_grids;
   PodVector<float> grid_values;
   float reach_m = 1e6f;  // beyond it in x or z the surface is as at it
   // Over the body: |height| and the length of the slope are never above, and come within half of them.

@@ -1,6 +1,8 @@
 // How each kind of surface fills the data of a frame: internal to water/.
 #pragma once
 
+#include <vector>
+
 #include "water/surface_data.h"
 #include "water/surface_settings.h"
 
@@ -18,6 +20,11 @@ void add_perlin(const Request& request, WaterSurface& surface);
 void add_gradient_waves(const Request& request, WaterSurface& surface);
 void add_ripples(const Request& request, WaterSurface& surface);
 void add_trochoids(const Request& request, WaterSurface& surface);
+// The sea's waves at amplitude 1, once a body; and their sum at a time.
+std::vector<float> spectrum_waves(const SurfaceSettings& settings);
+void add_spectrum(const Request& request, const std::vector<float>& waves, WaterSurface& surface);
+// What a spline's coefficients can do: greatest |height| and slope, no less than the spline's own.
+void bound_spline(const SplineGrid& grid, const float* values, WaterSurface& surface);
 // Once after all: trochoids bend one another, so their bounds and their push are those of all together.
 void finish_trochoids(WaterSurface& surface);
 

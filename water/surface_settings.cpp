@@ -19,6 +19,8 @@ Defaults defaults_of(SurfaceKind kind) {
       return {0.05f, 0.3f, 1};
     case SurfaceKind::kGerstner:
       return {0.1f, 2.0f, 4};
+    case SurfaceKind::kSpectrum:
+      return {0.08f, 2.0f, 1};
     case SurfaceKind::kFlat:
     case SurfaceKind::kSum:
       break;
@@ -33,6 +35,12 @@ SurfaceSettings resolve_surface(const SurfaceSettings& settings) {
   const Defaults defaults = defaults_of(s.kind);
   if (!s.wavelength_m) s.wavelength_m = defaults.wavelength_m;
   if (!s.octaves) s.octaves = defaults.octaves;
+  if (!s.tile_m) s.tile_m = 8.0f * *s.wavelength_m;
+  if (s.kind == SurfaceKind::kSpectrum) {
+    int side = 16;
+    while (2 * side <= (s.grid == 0 ? 128 : s.grid) && side < 512) side *= 2;
+    s.grid = side;
+  }
   if (!s.reach_m) s.reach_m = 10.0f * *s.wavelength_m;
   if (!s.slope && !s.amplitude_m && s.kind != SurfaceKind::kSum && s.kind != SurfaceKind::kFlat)
     s.slope = defaults.slope;

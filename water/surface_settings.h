@@ -13,6 +13,7 @@ enum class SurfaceKind : std::uint8_t {
   kGradientWaves,
   kRipples,
   kGerstner,
+  kSpectrum,
   kSum,
 };
 enum class WaterGeometry : std::uint8_t { kNormals, kDisplaced };
@@ -46,10 +47,13 @@ struct SurfaceSettings {
   RippleFalloff falloff = RippleFalloff::kLinear;
   std::optional<float> reach_m;  // > 0: linear: where a ripple ends; exponential: where 1/e of it is left
   float lifetime_s = 4.0f;       // > 0: the same in time
-  int grid = 0;                  // 2 to 1024: sampled on a grid of that many points a side; 0: exact
+  int grid = 0;  // ripples: 2 to 1024 points a side to sample them on, 0: exact; spectrum: 16 to 512, a power
+                 // of two
   // gerstner
   float choppiness = 1.0f;  // 0 (plain sines) to 1 (trochoids)
   float direction_deg = 0;  // where the longest wave goes, from +x to +z
+  // spectrum: the waves go towards direction_deg
+  std::optional<float> tile_m;  // > 0: it repeats after so many metres each way
   // sum
   std::vector<SurfaceSettings> parts;
 };

@@ -40,15 +40,17 @@ struct MethodStages {
           (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
       if (none(here)) return;
       const WaterRays<WideF> rays = M::template rays<WideF>(water, block_rays(f.view, block), differential);
-      const WideI x = WideI(block.x_px) + block_x(), y = WideI(block.y_px) + block_y();
-      const WideI own = WideI::load(f.refracted.id.data() + block.offset);
+      const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),
+                  y = WideI(block.y_px + f.layers.margin_px) + block_y();
+      const std::size_t at = f.layers.offset(block.x_px, block.y_px);
+      const WideI own = WideI::load(f.refracted.id.data() + at);
       const WideM through = here & rays.at_surface.transmitted;
       const bool bent = water.surface != nullptr && M::kFollowsWaves;
       const WideI id = bent ? march_hit(f, Layer{f.refracted, water, false}, rays.refracted, own, through)
                             : confirm_hit(f.geometry, f.refracted, rays.refracted, own, x, y, through).id;
       store_masked(f.hits.refracted_id.data() + block.offset, id, here);
       if (!water.mirrors) return;
-      const WideI mirrored = WideI::load(f.mirrored.id.data() + block.offset);
+      const WideI mirrored = WideI::load(f.mirrored.id.data() + at);
       const WideI mirror_id = water.surface != nullptr
                                   ? march_hit(f, Layer{f.mirrored, water, true}, rays.reflected, mirrored, here)
                                   : confirm_hit(f.geometry, f.mirrored, rays.reflected, mirrored, x, y, here).id;

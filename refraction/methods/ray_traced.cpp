@@ -268,7 +268,9 @@ BroadPhase flat_map(const WaterBody& body, const View& view) { return make_broad
 }  // namespace
 
 Method ray_traced() {
-  MethodKernels kernels{&flat_map, nullptr, nullptr, nullptr, &trace_region};
+  MethodKernels kernels{};
+  kernels.map = &flat_map;
+  kernels.trace = &trace_region;
   return {"ray-traced",
           "the truth: recursive reflection and refraction, by Embree",
           "Whitted 1980; Li et al.; Liu et al. 2020, reference [6]",

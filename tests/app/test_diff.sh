@@ -24,7 +24,20 @@ equals "equal: psnr" "null" "$(field equal.json psnr_db)"
 equals "equal: first" "null" "$(field equal.json first)"
 equals "equal: pixels" "0" "$(field equal.json pixels_differ)"
 equals "equal: max_abs" "0" "$(field equal.json max_abs | cut -d. -f1)"
-equals "flip is null for now" "null" "$(field different.json flip)"
+flip() { perl -MJSON::PP -e 'local $/; my $f = JSON::PP->new->decode(<STDIN>)->{flip};
+  print ref $f ? join(" ", map { $f->{$_} // "null" } @ARGV) : "null"' "${@:2}" <"$1"; }
+equals "flip's keys" "kind mean median p95 ppd" \
+  "$(perl -MJSON::PP -e 'local $/; print join " ", sort keys %{decode_json(<STDIN>)->{flip}}' <different.json)"
+equals "two PNGs: LDR-FLIP at 67.02" "ldr 67.02" "$(flip different.json kind ppd)"
+equals "two EXRs: HDR-FLIP" "hdr 67.02" "$(flip exr.json kind ppd)"
+equals "equal: no error" "0 0 0" "$(flip equal.json mean median p95 | sed 's/\.0//g')"
+equals "different: 0 < median <= p95 <= 1, 0 < mean" "yes" \
+  "$(flip different.json mean median p95 | awk '{ print ($1 > 0 && $2 > 0 && $3 >= $2 && $3 <= 1) ? "yes" : "no" }')"
+exits "--ppd" 3 "$shoal" diff a.png b.png --ppd 20 --json near.json
+equals "--ppd is said" "20" "$(flip near.json ppd | sed 's/\.0$//')"
+equals "--ppd changes the error" "different" "$([ "$(flip near.json mean)" != "$(flip different.json mean)" ] && echo different)"
+exits "the text has FLIP too" 3 "$shoal" diff a.png b.png
+equals "in a line" "$(flip different.json mean | xargs printf 'flip %.6f')" "$(grep flip .out)"
 exits "--json -" 3 "$shoal" diff a.png b.png --json -
 equals "--json - is JSON alone" "{" "$(head -1 .out)"
 exits "--quiet" 3 "$shoal" diff a.png b.png --quiet
@@ -48,6 +61,14 @@ exits "a mask from an EXR's water.mask" 3 "$shoal" diff a.exr b.exr --mask a.exr
 equals "only water pixels can differ in absorption" "$(field exr.json pixels_differ)" "$(field water.json pixels_differ)"
 exits "--map EXR" 3 "$shoal" diff a.exr b.exr --map map.exr
 equals "its channels" "B float G float R float" "$(picture channels map.exr | paste -sd ' ')"
+exits "--flip-map" 3 "$shoal" diff a.png b.png --flip-map flip.png
+equals "it is a picture of the same size" "different" "$("$shoal" diff flip.png a.png --quiet; [ $? = 3 ] && echo different)"
+exits "--flip-map EXR, with --map" 3 "$shoal" diff a.png b.png --flip-map flip.exr --map both.png --json -
+exits "its mean" 3 "$shoal" diff flip.exr map.exr --json .unused
+equals "the error, as grey" "0 0" "$(for c in G B; do
+  awk -v a="$(picture sample flip.exr R 5 5)" -v b="$(picture sample flip.exr $c 5 5)" 'BEGIN { print a == b ? 0 : 1 }'; done | paste -sd ' ')"
+exits "a mask counts for FLIP" 3 "$shoal" diff a.exr b.exr --mask a.exr --json water.json
+equals "only its pixels do" "larger" "$(echo "$(flip water.json mean) $(flip exr.json mean)" | awk '{ print ($1 > $2) ? "larger" : "not" }')"
 exits "an equal pair's map is black: no mask" 0 "$shoal" diff a.png same.png --map black.png
 refuses 1 "black.png: is black all over" "$shoal" diff a.png b.png --mask black.png
 exits "--ppd" 0 "$shoal" diff a.png same.png --ppd 67.02
@@ -70,6 +91,8 @@ make_exr inf.exr 7f800000
 exits "not a number equals itself" 0 "$shoal" diff nan.exr nan.exr
 exits "not a number and 1" 3 "$shoal" diff nan.exr one.exr --json nan.json
 equals "has no largest difference" "null" "$(field nan.json max_abs)"
+equals "without green and blue there is no FLIP" "null" "$(flip nan.json mean)"
+refuses 1 "nan.exr: has no red, green and blue" "$shoal" diff nan.exr one.exr --flip-map none.png
 exits "infinity and 1" 3 "$shoal" diff inf.exr one.exr --json inf.json
 exits "one last bit" 3 "$shoal" diff one.exr next.exr --json bit.json
 equals "is that large" "1.1920928955078125e-07" "$(grep -oE '"max_abs": [^,]+' bit.json | cut -d" " -f2)"
@@ -105,6 +128,9 @@ refuses 2 "B is required" "$shoal" diff a.png
 refuses 2 "not a picture's name" "$shoal" diff a.png b.png --map map.tif
 refuses 2 "--ppd" "$shoal" diff a.png b.png --ppd 0
 refuses 2 "--ppd" "$shoal" diff a.png b.png --ppd x
+refuses 2 "--flip-map 'm.tif': not a picture's name" "$shoal" diff a.png b.png --flip-map m.tif
+refuses 2 "the other map has that name" "$shoal" diff a.png b.png --map m.png --flip-map m.png
+refuses 2 "the map has that name" "$shoal" diff a.png b.png --flip-map m.png --json m.png
 refuses 2 "the map has that name" "$shoal" diff a.png b.png --map m.png --json m.png
 no_leftovers "diff"
 finish

@@ -6,8 +6,7 @@ r() { refuses 2 "$1" "$shoal" render box -o x.png --size 32x24 "${@:2}"; }
 
 # --- Commands
 refuses 2 "no command; expected one of: render" "$shoal"
-refuses 2 "command 'draw': unknown; expected one of: render, diff" "$shoal" draw
-refuses 2 "compare: has not come yet" "$shoal" compare box -o out
+refuses 2 "command 'draw': unknown; expected one of: render, compare, diff" "$shoal" draw
 refuses 2 "SCENE is required" "$shoal" render
 refuses 2 "not expected: --frobnicate" "$shoal" render box --frobnicate
 refuses 2 "not expected: extra" "$shoal" render box extra -o x.png
@@ -15,7 +14,7 @@ refuses 2 "nothing to write; expected -o" "$shoal" render box
 refuses 2 "requires|required|expected" "$shoal" render box -o
 passes "--help" "$shoal" --help
 equals "--help is on standard output alone" "0" "$(wc -c <.err)"
-for command in render diff probe scene info list; do
+for command in render compare diff probe scene info list; do
   passes "$command --help" "$shoal" $command --help
   equals "$command --help says something" "yes" "$([ "$(wc -l <.out)" -ge 4 ] && echo yes)"
 done
@@ -59,11 +58,11 @@ refused_isa=$(for isa in scalar sse4.2 avx2 avx512 neon; do "$shoal" list isas |
 [ -z "$refused_isa" ] || r "--isa '$refused_isa': this machine cannot run it" --isa "$refused_isa"
 r "--anisotropy" --anisotropy 0
 r "--anisotropy" --anisotropy 17
-r "--shadows 'rays': has not come yet" --shadows rays
+r "--shadows 'dark': unknown; expected one of: off, map, rays" --shadows dark
 r "--shadows 'on': unknown; expected one of: off, map" --shadows on
 r "--shadow-map '1000': not a power of two; expected 256, 512, 1024, 2048, 4096 or 8192" --shadow-map 1000
 r "--shadow-map '16384'" --shadow-map 16384
-r "--reflections 'scene': has not come yet" --reflections scene
+r "--reflections 'all': unknown; expected one of: environment, scene" --reflections all
 r "--reflections 'none': unknown" --reflections none
 r "--tonemap 'filmic': unknown; expected one of: none, aces" --tonemap filmic
 r "--background" --background 1,2
@@ -82,11 +81,13 @@ r "--set absorption" --set absorption=1,2
 r "--set absorption" --set absorption=-1,0,0
 r "--set depth" --set depth=0
 r "--set size" --set size=3
-r "--set surface 'perlin': has not come yet" --set surface=perlin
 r "--set surface 'bumpy': unknown" --set surface=bumpy
 r "--set geometry 'displaced': has not come yet" --set geometry=displaced
-r "--set 'slope': has not come yet" --set slope=0.1
-r "--set 'seed': has not come yet" --set seed=7
+r "--set surface 'bumpy': unknown" --set surface=perlin+bumpy
+r "--set slope" --set slope=-0.1
+r "--set octaves" --set octaves=1.5
+r "--set octaves" --set octaves=9
+r "--set fade 'steep': unknown" --set fade=steep
 r "unknown key" --set two-phase.nonsense=1
 r "unknown" --set three-phase.x=1
 r "has not come yet" --set liu-2020.x=1

@@ -71,6 +71,24 @@ void check_same(const Material& a, const Material& b) {
   CHECK(same_bits(a.ior, b.ior));
 }
 
+void check_same(const SurfaceSettings& a, const SurfaceSettings& b) {
+  CHECK(a.kind == b.kind);
+  CHECK(a.slope == b.slope);
+  CHECK(a.amplitude_m == b.amplitude_m);
+  CHECK(a.octaves == b.octaves);
+  CHECK(same_bits(a.gain, b.gain));
+  CHECK(a.seed == b.seed);
+  CHECK(a.fade == b.fade);
+  CHECK(a.falloff == b.falloff);
+  REQUIRE(a.drops.size() == b.drops.size());
+  for (std::size_t i = 0; i < a.drops.size(); ++i) {
+    CHECK(same_bits(a.drops[i].x_m, b.drops[i].x_m));
+    CHECK(same_bits(a.drops[i].time_s, b.drops[i].time_s));
+  }
+  REQUIRE(a.parts.size() == b.parts.size());
+  for (std::size_t i = 0; i < a.parts.size(); ++i) check_same(a.parts[i], b.parts[i]);
+}
+
 void check_same(const WaterSpec& a, const WaterSpec& b) {
   CHECK(a.has_size == b.has_size);
   CHECK(same_bits(a.size_x, b.size_x));
@@ -79,8 +97,8 @@ void check_same(const WaterSpec& a, const WaterSpec& b) {
   CHECK(same_bits(a.depth, b.depth));
   CHECK(same_bits(a.ior, b.ior));
   CHECK(same_bits(a.absorption, b.absorption));
-  CHECK(a.surface.kind == b.surface.kind);
   CHECK(a.surface.geometry == b.surface.geometry);
+  check_same(a.surface, b.surface);
 }
 
 void check_same(const Background& a, const Background& b) {
@@ -244,6 +262,19 @@ Scene full_scene() {
   scene.waters[0].ior = 1.0f / 3.0f;
   scene.waters[0].absorption = {0, 0.1f, 1e-3f};
   scene.waters[0].surface.geometry = WaterGeometry::kDisplaced;
+  SurfaceSettings& surface = scene.waters[0].surface;
+  surface.kind = SurfaceKind::kSum;
+  surface.slope = 0.1f;
+  surface.parts.resize(2);
+  surface.parts[0].kind = SurfaceKind::kPerlin;
+  surface.parts[0].amplitude_m = 0.3f;
+  surface.parts[0].octaves = 5;
+  surface.parts[0].gain = 0.1f;
+  surface.parts[0].seed = 4000000001u;
+  surface.parts[0].fade = NoiseFade::kCubic;
+  surface.parts[1].kind = SurfaceKind::kRipples;
+  surface.parts[1].falloff = RippleFalloff::kExponential;
+  surface.parts[1].drops = {{1.1f, -2, 0.3f}};
 
   scene.nodes.resize(7);
   scene.nodes[0].name = "root";

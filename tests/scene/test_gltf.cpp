@@ -378,9 +378,42 @@ TEST_CASE("gltf: water from an object, from flat keys, from a check box", "[gltf
     CHECK(water_of({{"water", false}, {"water_ior", 1.2}}).waters.empty());
     CHECK(water_of({{"other", 5}}).waters.empty());
   }
-  SECTION("a surface to come") {
-    const Scene scene = water_of({{"water", {{"surface", {{"type", "ripples"}, {"slope", 0.1}}}}}});
-    CHECK(has_warning(scene, "'ripples' is not read yet: drawn flat"));
+  SECTION("surfaces") {
+    const SurfaceSettings ripples = water_of({{"water",
+                                               {{"surface",
+                                                 {{"drops", {{1, 2, 0.5}, {-3, 4, 1}}},
+                                                  {"slope", 0.1},
+                                                  {"falloff", "exponential"},
+                                                  {"type", "ripples"}}}}}})
+                                        .waters.at(0)
+                                        .surface;
+    CHECK(ripples.kind == SurfaceKind::kRipples);
+    CHECK(ripples.slope == 0.1f);
+    CHECK(ripples.falloff == RippleFalloff::kExponential);
+    REQUIRE(ripples.drops.size() == 2);
+    CHECK(ripples.drops[1].z_m == 4.0f);
+    const SurfaceSettings flat_keys =
+        water_of({{"water_octaves", 3}, {"water_seed", 4000000000.0}, {"water_surface", "perlin"}})
+            .waters.at(0)
+            .surface;
+    CHECK(flat_keys.kind == SurfaceKind::kPerlin);
+    CHECK(flat_keys.octaves == 3);
+    CHECK(flat_keys.seed == 4000000000u);
+    const SurfaceSettings sum =
+        water_of({{"water",
+                   {{"surface",
+                     {{"parts", {{{"type", "spectrum"}, {"slope", 0.2}}, {{"type", "perlin"}, {"octaves", 2}}}}}}}}})
+            .waters.at(0)
+            .surface;
+    CHECK(sum.kind == SurfaceKind::kSum);
+    REQUIRE(sum.parts.size() == 2);
+    CHECK(sum.parts[0].slope == 0.2f);
+    CHECK(sum.parts[1].octaves == 2);
+    const SurfaceSettings plus =
+        water_of({{"water_type", "spectrum+perlin"}, {"water_wavelength", 3}}).waters.at(0).surface;
+    REQUIRE(plus.parts.size() == 2);
+    CHECK(plus.parts[1].wavelength_m == 3.0f);
+    CHECK(has_warning(water_of({{"water", {{"surface", {{"tpye", "flat"}}}}}}), "'tpye' is not known"));
   }
 }
 

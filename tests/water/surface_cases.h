@@ -46,6 +46,9 @@ inline std::vector<Case> all() {
     s.slope = 0.2f;
     cases.push_back({"gerstner " + std::to_string(octaves), s});
   }
+  SurfaceSettings sea = of_kind(SurfaceKind::kSpectrum);
+  sea.grid = 64;
+  cases.push_back({"spectrum", sea});
   SurfaceSettings sum = of_kind(SurfaceKind::kSum);
   sum.parts = {of_kind(SurfaceKind::kGerstner), cubic};
   cases.push_back({"sum", sum});

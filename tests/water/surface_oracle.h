@@ -69,12 +69,33 @@ inline double trochoids(const WaterSurface& surface, double x, double z) {
       qz += static_cast<double>(w.push_z_m) * std::sin(angle);
       height += static_cast<double>(w.amplitude_m) * std::cos(angle);
     }
+    const double moved = std::fabs(px - qx) + std::fabs(pz - qz);
     px = qx, pz = qz;
+    if (moved < 1e-14) break;
   }
   return height;
 }
 
-// Sum of all parts but those on grids.
+// By the box spline's definition: weights from its three pieces, as a function of the distance.
+inline double spline_weight(double d) {
+  d = std::fabs(d);
+  return d < 0.5 ? 0.75 - d * d : d < 1.5 ? 0.5 * (1.5 - d) * (1.5 - d) : 0.0;
+}
+inline double spline(const SplineGrid& g, const float* values, double x, double z) {
+  const double u = (x - static_cast<double>(g.min_x_m)) * static_cast<double>(g.cells_per_m);
+  const double v = (z - static_cast<double>(g.min_z_m)) * static_cast<double>(g.cells_per_m);
+  const auto inside = [&](int k, int count) {
+    return g.wraps != 0 ? ((k % count) + count) % count : k < 0 ? 0 : k < count ? k : count - 1;
+  };
+  double sum = 0;
+  for (int j = static_cast<int>(std::floor(v)) - 2; j <= std::floor(v) + 3; ++j)
+    for (int i = static_cast<int>(std::floor(u)) - 2; i <= std::floor(u) + 3; ++i)
+      sum += spline_weight(u - i) * spline_weight(v - j) *
+             static_cast<double>(values[g.first + inside(j, g.count_z) * g.count_x + inside(i, g.count_x)]);
+  return sum;
+}
+
+// Sum of all parts but Champandard's buffer.
 inline double height(const WaterSurface& surface, double x, double z) {
   double sum = 0;
   for (std::size_t i = 0; i < surface.noise.size(); ++i) {
@@ -86,6 +107,9 @@ inline double height(const WaterSurface& surface, double x, double z) {
   }
   for (std::size_t i = 0; i < surface.ripples.size(); ++i) sum += ripple(surface.ripples[i], x, z);
   if (surface.trochoids.size() != 0) sum += trochoids(surface, x, z);
+  for (std::size_t i = 0; i < surface.spline_grids.size(); ++i) {
+    sum += spline(surface.spline_grids[i], surface.grid_values.data(), x, z);
+  }
   return sum;
 }
 

@@ -1,0 +1,38 @@
+// Everything that is said of one method's frame against the truth's.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/flip.h"
+#include "compare/hits.h"
+
+namespace shoal {
+
+// Over the water's pixels, or over the frame.
+struct PictureMetrics {
+  double flip = 0;     // mean LDR-FLIP of the 8-bit pictures; NaN of no pixels
+  double psnr_db = 0;  // infinite of equal pictures, NaN of no pixels
+  std::optional<std::uint64_t> yee_failed;
+};
+
+struct FrameMetrics {
+  PictureMetrics water, frame;
+  HitComparison hits;
+  std::vector<float> flip;  // of each pixel
+};
+
+struct MetricSettings {
+  FlipSettings flip;
+  bool yee = false;
+};
+
+// Measures a frame against the truth.
+//
+//   scene, camera  as the frames were drawn: compare_hits
+//   truth, method  pictures and kHitAovs, of the same size
+FrameMetrics measure_frame(const RenderScene& scene, const Camera& camera, const Frame& truth, const Frame& method,
+                           const MetricSettings& settings, ThreadPool& pool);
+
+}  // namespace shoal
