@@ -15,6 +15,7 @@
 #include "raster/setup.h"
 #include "raster/visibility.h"
 #include "refraction/broad/broad_phase.h"
+#include "refraction/field/distance_field.h"
 #include "refraction/renderer.h"
 #include "refraction/shadow_map.h"
 #include "refraction/trace/ray_queries.h"
@@ -150,6 +151,7 @@ struct FrameData {
   GeometryView water_geometry;                     // the outlines of the bodies of water
   SunShadows shadows;                              // of the sun, which stands still as the scene does
   std::unique_ptr<RayQueries> rays;                // where the method or the shadows trace rays, else null
+  std::unique_ptr<DistanceFields> fields;          // of the method that has them, else null
   float method_option[kMaxMethodOptions] = {};     // of the method, in the order of its list
   std::vector<std::uint32_t> outline_first_chunk;  // of body b; one more at the end
   std::vector<SurfaceModel> surface_models;        // of the bodies

@@ -8,6 +8,8 @@
 
 namespace shoal {
 
+class ThreadPool;
+
 // Which of the covered pixels (bit i: lane i of the block at x_px, y_px) a masked triangle keeps: its material is asked
 // where the pass's ray meets it.
 using AlphaTest = std::uint32_t (*)(const FrameData&, const WaterPass*, std::int32_t id, int x_px, int y_px,
@@ -43,7 +45,7 @@ struct FrameKernels {
 // What a method brings: its broad phase and its narrow phase (refraction/methods/method.h).
 struct MethodKernels {
   BroadPhase (*map)(const WaterBody&, const View&);
-  AlphaTest refracted_alpha;
+  AlphaTest refracted_alpha;  // null: the method finds by itself what water shows, and no refracted layer is drawn
   void (*narrow)(FrameData&, const WaterPass&, std::size_t region);
   // The blended bins over one region of a water pass, into Blended::refracted or, for a mirrored pass, mirrored.
   void (*blend_water)(FrameData&, const WaterPass&, std::size_t region, int thread);
@@ -51,6 +53,9 @@ struct MethodKernels {
   void (*shade)(FrameData&, std::size_t region);
   // Of a method that traces rays instead: one region of the frame, all of it. The stages above are then not used.
   void (*trace)(FrameData&, std::size_t region) = nullptr;
+  // What the method keeps of the scene's geometry: called once with no camera where nothing moves, else in every frame
+  // with that frame's. Throws NotApplicable where the method cannot show the scene.
+  void (*prepare)(FrameData&, ThreadPool&, const Camera*) = nullptr;
 };
 
 // An option of a method, `--set KEY=VALUE`. Its value is a number: a truth value is 0 or 1.

@@ -20,8 +20,30 @@
 
 namespace shoal::inline SHOAL_ISA_NS {
 
+// The map and the rays of flat water's physics: geometry where the plane shows it, each ray as the surface bends it.
+struct TrueRays {
+  static constexpr bool kFollowsWaves = true;
+  static BroadPhase map(const WaterBody& body, const View& view) { return make_broad_phase(body, view); }
+
+  template <class F>
+  SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
+    const ExactRay<F> hit = exact_ray(eye_side(water), view_ray);
+    const RayDifferential<F> crossing = at_crossing(view_ray, differential, hit);
+    return {hit,
+            {hit.crossing_world, hit.refracted},
+            {hit.crossing_world, hit.reflected},
+            refracted_differential(crossing, hit),
+            reflected_differential(crossing, hit)};
+  }
+};
+
 template <class M>
 struct MethodStages {
+  // The lanes of a block that show the body's surface.
+  static WideM shown(const FrameData& f, const WaterPass& water, const Block& block) {
+    return (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
+  }
+
   // Alpha test of the refracted pass: where the method's ray meets the triangle.
   static std::uint32_t refracted_alpha(const FrameData& f, const WaterPass* water, std::int32_t id, int x_px, int y_px,
                                        std::uint32_t cover) {
@@ -36,8 +58,7 @@ struct MethodStages {
   static void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
     const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
     for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
-      const WideM here =
-          (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
+      const WideM here = shown(f, water, block);
       if (none(here)) return;
       const WaterRays<WideF> rays = M::template rays<WideF>(water, block_rays(f.view, block), differential);
       const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),
@@ -49,13 +70,19 @@ struct MethodStages {
       const WideI id = bent ? march_hit(f, Layer{f.refracted, water, false}, rays.refracted, own, through)
                             : confirm_hit(f.geometry, f.refracted, rays.refracted, own, x, y, through).id;
       store_masked(f.hits.refracted_id.data() + block.offset, id, here);
-      if (!water.mirrors) return;
-      const WideI mirrored = WideI::load(f.mirrored.id.data() + at);
-      const WideI mirror_id = water.surface != nullptr
-                                  ? march_hit(f, Layer{f.mirrored, water, true}, rays.reflected, mirrored, here)
-                                  : confirm_hit(f.geometry, f.mirrored, rays.reflected, mirrored, x, y, here).id;
-      store_masked(f.hits.mirrored_id.data() + block.offset, mirror_id, here);
+      if (water.mirrors) narrow_mirrored(f, water, block, rays, here);
     });
+  }
+
+  // What the surface mirrors at a block's lanes.
+  static void narrow_mirrored(FrameData& f, const WaterPass& water, const Block& block, const WaterRays<WideF>& rays,
+                              WideM here) {
+    const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),
+                y = WideI(block.y_px + f.layers.margin_px) + block_y();
+    const WideI own = WideI::load(f.mirrored.id.data() + f.layers.offset(block.x_px, block.y_px));
+    const WideI id = water.surface != nullptr ? march_hit(f, Layer{f.mirrored, water, true}, rays.reflected, own, here)
+                                              : confirm_hit(f.geometry, f.mirrored, rays.reflected, own, x, y, here).id;
+    store_masked(f.hits.mirrored_id.data() + block.offset, id, here);
   }
 
   // The method's refracted ray, or, for a mirrored pass, the reflected one.

@@ -9,21 +9,7 @@
 namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
-struct TwoPhase {
-  static constexpr bool kFollowsWaves = true;
-  static BroadPhase map(const WaterBody& body, const View& view) { return make_broad_phase(body, view); }
-
-  template <class F>
-  SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
-    const ExactRay<F> hit = exact_ray(eye_side(water), view_ray);
-    const RayDifferential<F> crossing = at_crossing(view_ray, differential, hit);
-    return {hit,
-            {hit.crossing_world, hit.refracted},
-            {hit.crossing_world, hit.reflected},
-            refracted_differential(crossing, hit),
-            reflected_differential(crossing, hit)};
-  }
-};
+struct TwoPhase : TrueRays {};
 }  // namespace
 
 Method two_phase() {
