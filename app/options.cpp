@@ -25,7 +25,7 @@ constexpr double kMaxAbsorption = 1e4;  // 1/m
 constexpr std::int64_t kMaxTriangles = 50'000'000;
 
 // What is planned, named in the design, and not built yet: refused by name, apart from what does not exist at all.
-const Names kComingMethods = {"liu-2020", "steel-2024", "narrow-only", "screen-space", "distort", "block-grid"};
+const Names kComingMethods = {"liu-2020", "steel-2024", "narrow-only", "screen-space", "distort"};
 const Names kWaterKeys = {"size", "depth", "ior", "absorption", "surface", "geometry"};
 
 bool contains(const Names& names, std::string_view name) {

@@ -77,12 +77,30 @@ SHOAL_INLINE Vec3<WideF> look(const FrameData& f, const WaterPass& water, const 
   return radiance;
 }
 
+// Of a method whose rays depend on the pixel: it has pixel_rays(frame, block, water, view ray, differential).
+template <class M>
+concept PixelRays = requires(const FrameData& f, const Block& block, const WaterPass& water, const Ray<WideF>& ray,
+                             const RayDifferential<WideF>& differential) {
+  M::pixel_rays(f, block, water, ray, differential);
+};
+template <class M>
+SHOAL_INLINE WaterRays<WideF> water_rays(const FrameData& f, const Block& block, const WaterPass& water,
+                                         const Ray<WideF>& ray, const RayDifferential<WideF>& differential) {
+  if constexpr (PixelRays<M>)
+    return M::pixel_rays(f, block, water, ray, differential);
+  else
+    return M::template rays<WideF>(water, ray, differential);
+}
+// Of a method that may find nothing where there is something: kMisses.
+template <class M>
+concept Misses = M::kMisses;
+
 // The lanes of a block that show one body's surface.
 template <class M>
 __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, const WaterPass& water,
                                            const Ray<WideF>& ray, WideM lanes, BlockColor& out) {
   const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
-  const WaterRays<WideF> r = M::template rays<WideF>(water, ray, differential);
+  const WaterRays<WideF> r = water_rays<M>(f, block, water, ray, differential);
   const ExactRay<WideF>& at = r.at_surface;
   const bool eye_below = water.optics.eye_below;
   const WideM through = lanes & at.transmitted;
@@ -97,6 +115,8 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
   Vec3<WideF> refracted = zero, reflected = zero;
   if (any(through)) {
     const WideI shown = WideI::load(f.hits.refracted_id.data() + block.offset);
+    if (Misses<M> && f.capture)
+      shade_detail::capture_hits(f, block, zero, zero, WideI(kNoId), HitKind::kMiss, through & !is_triangle(shown));
     refracted = look(f, water, r.refracted, r.refracted_differential, shown, through, !eye_below,
                      [&](const ShadedLanes& s, WideM hit) SHOAL_LAMBDA {
                        if (!f.capture) return;

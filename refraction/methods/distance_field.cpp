@@ -29,16 +29,6 @@ void prepare(FrameData& f, ThreadPool& pool, const Camera* camera) {
   f.fields->build(*f.scene, camera, static_cast<int>(f.method_option[kResolution]), pool);
 }
 
-// Blended materials are laid over what the layer holds: here, what the rays met.
-void note_layer(FrameData& f, const WaterPass& water, const Ray<WideF>& ray, const FieldHit& hit, std::size_t at) {
-  const WideM met = is_triangle(hit.id);
-  const ClipVertex<WideF> clip =
-      project(f.view, virtual_position(water.map, ray.origin_world + ray.direction_world * hit.t));
-  const WideM seen = met & (clip.w > WideF(0.0f));
-  (select(seen, clip.z / select(seen, clip.w, WideF(1.0f)), WideF(0.0f))).store(f.refracted.depth.data() + at);
-  hit.id.store(f.refracted.id.data() + at);
-}
-
 void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
   const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
   const std::vector<DistanceField>& fields = water.optics.eye_below ? f.fields->above : f.fields->below;
@@ -51,7 +41,10 @@ void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
     const FieldHit hit =
         march_field(field, *water.body, f.geometry, rays.refracted, settings, here & rays.at_surface.transmitted);
     store_masked(f.hits.refracted_id.data() + block.offset, hit.id, here);
-    if (f.blended.any()) note_layer(f, water, rays.refracted, hit, f.layers.offset(block.x_px, block.y_px));
+    const Ray<WideF>& ray = rays.refracted;
+    if (f.blended.any())
+      note_layer(f, water, hit.id, ray.origin_world + ray.direction_world * hit.t,
+                 f.layers.offset(block.x_px, block.y_px));
     if (water.mirrors) Stages::narrow_mirrored(f, water, block, rays, here);
   });
 }

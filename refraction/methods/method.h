@@ -9,7 +9,8 @@
 //     static constexpr bool kFollowsWaves = true;                    // that ray is bent by the waves' normals
 //   };
 //
-// MethodStages<MyMethod>::kernels() makes the frame's stages of it.
+// It may also find by itself what its rays meet (distance_field.cpp), and have rays that depend on the pixel (below,
+// PixelRays; block_grid.cpp). MethodStages<MyMethod>::kernels() makes the frame's stages of it.
 #pragma once
 
 #include "refraction/kernels.h"
@@ -36,6 +37,18 @@ struct TrueRays {
             reflected_differential(crossing, hit)};
   }
 };
+
+// For a method that draws no refracted layer: writes what a block's rays met into it, for blended materials are laid
+// over what it holds.
+//   id, position  of the points met; kNoId: none
+//   at            of the block in the layer
+SHOAL_INLINE void note_layer(FrameData& f, const WaterPass& water, WideI id, Vec3<WideF> position, std::size_t at) {
+  const ClipVertex<WideF> clip = project(f.view, virtual_position(water.map, position));
+  const WideM seen = is_triangle(id) & (clip.w > WideF(0.0f));
+  const WideF depth = select(seen, clip.z / select(seen, clip.w, WideF(1.0f)), WideF(0.0f));
+  depth.store(f.refracted.depth.data() + at);
+  id.store(f.refracted.id.data() + at);
+}
 
 template <class M>
 struct MethodStages {
