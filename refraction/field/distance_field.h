@@ -45,8 +45,8 @@ Vec3f to_plane(const WaterBody& body, Vec3f p_world);
 // in
 //         a band of voxels about each triangle, then the nearest triangle handed on from voxel to voxel, six sweeps of
 //         nine neighbours each, in the manner of Danielsson 1980.
-// Error: within 1.5 voxels of a surface exact up to rounding; beyond never too small, and too great by at most 0.1
-//        voxels (tests/refraction/test_distance_field.cpp).
+// Error: within 1.5 voxels of a surface exact up to rounding; beyond never too small, and too great by at most 0.02
+//        voxels on the test's scene (tests/refraction/test_distance_field.cpp).
 DistanceField build_distance_field(const RenderScene& scene, const WaterBody& body, bool below, int resolution,
                                    ThreadPool& pool);
 
