@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <set>
 
 #include "app/commands.h"
@@ -46,6 +47,18 @@ Drawn draw(const FrameRun& run, const Options& options, bool keep_linear, Progre
   drawn.threads = renderer->threads();
   progress.step_done();
   return drawn;
+}
+
+// Empty, and warned of, where the method is not made for the scene.
+std::optional<Drawn> draw_if_applicable(const FrameRun& run, const Options& options, bool keep_linear,
+                                        Progress& progress) {
+  try {
+    return draw(run, options, keep_linear, progress);
+  } catch (const NotApplicable& error) {
+    warn(options.scene.name, error.what());
+    for (std::int64_t k = 0; k <= run.timed_frames(); ++k) progress.step_done();
+    return std::nullopt;
+  }
 }
 
 // A loaded scene at the options' time: what the metrics look things up in.
@@ -202,7 +215,9 @@ class Compare {
     report_.reference.picture_png = add_png(folder, "reference.png", truth.frame, truth.frame.srgb8);
     add_exr(folder, "reference.exr", truth.frame);
     for (const Options& options : options_.methods) {
-      const Drawn drawn = draw(run, options, options_.exr, progress);
+      const std::optional<Drawn> shown = draw_if_applicable(run, options, options_.exr, progress);
+      if (!shown) continue;
+      const Drawn& drawn = *shown;
       ReportMethod method = describe(options.frame.method, drawn.times);
       method.metrics =
           measure_frame(*scene, run.camera_of(0), truth.frame, drawn.frame, metric_settings(options_), pool);
@@ -236,7 +251,9 @@ class Compare {
     const Drawn truth = draw(run, options.reference, false, progress);
     ThreadPool pool(truth.threads);
     for (const Options& method : options.methods) {
-      const Drawn drawn = draw(run, method, false, progress);
+      const std::optional<Drawn> shown = draw_if_applicable(run, method, false, progress);
+      if (!shown) continue;
+      const Drawn& drawn = *shown;
       ReportSweepPoint point{value, method.frame.method, report_times(drawn.times), {}};
       point.metrics = measure_frame(*scene, run.camera_of(0), truth.frame, drawn.frame, metric_settings(options), pool);
       point.metrics.flip.clear();

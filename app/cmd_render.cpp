@@ -73,6 +73,7 @@ class Render {
     first_.height_px = frame.height_px;
     first_.water_pixels = frame.water_pixels;
     first_.rays = frame.rays;
+    first_.method_figures = frame.method_figures;
     if (options_.repeat > 1) first_.srgb8 = frame.srgb8;
     if (frame.subdivision_capped > 0 && !options_.quiet) {
       warn(options_.scene.name, fmt::format("{} triangles reached the subdivision's level cap: they may be off by more "

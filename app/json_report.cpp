@@ -233,6 +233,10 @@ Json render_report(const Options& options, const LoadedScene& loaded, const Plac
   r["frames_ms"] = Json::array();
   for (const double ms : times.frames_ms) r["frames_ms"].push_back(json_ms(ms));
   r["frame_digests"] = times.frame_digests;
+  if (!first_frame.method_figures.empty()) {
+    r["method_figures"] = Json::object();
+    for (const auto& [name, value] : first_frame.method_figures) r["method_figures"][name] = json_ms(value);
+  }
   if (!first_frame.rays.empty()) {
     r["rays"] = Json::object();
     for (const auto& [kind, count] : first_frame.rays) r["rays"][kind] = count;

@@ -24,16 +24,10 @@ constexpr double kMaxLength_m = 1e6;    // of a body of water
 constexpr double kMaxAbsorption = 1e4;  // 1/m
 constexpr std::int64_t kMaxTriangles = 50'000'000;
 
-// What is planned, named in the design, and not built yet: refused by name, apart from what does not exist at all.
-const Names kComingMethods = {"distance-field", "block-grid"};
 const Names kWaterKeys = {"size", "depth", "ior", "absorption", "surface", "geometry"};
 
 bool contains(const Names& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-[[noreturn]] void not_yet(std::string_view option, std::string_view value, const Names& available) {
-  throw UsageError(fmt::format("{} '{}': has not come yet; expected {}", option, value, join(available)));
 }
 
 [[noreturn]] void unknown(std::string_view option, std::string_view value, const Names& available) {
@@ -41,10 +35,9 @@ bool contains(const Names& names, std::string_view name) {
 }
 
 // One of `available`, by its place there.
-std::size_t read_choice(std::string_view option, std::string_view value, const Names& available, const Names& coming) {
+std::size_t read_choice(std::string_view option, std::string_view value, const Names& available) {
   const auto found = std::find(available.begin(), available.end(), value);
   if (found != available.end()) return static_cast<std::size_t>(found - available.begin());
-  if (contains(coming, value)) not_yet(option, value, available);
   unknown(option, value, available);
 }
 
@@ -87,11 +80,11 @@ bool set_water_key(WaterOverrides& water, const std::string& key, const std::str
     for (const SurfaceKindInfo& info : surface_kinds()) names.emplace_back(info.name);
     std::vector<SurfaceKind> kinds;
     for (const std::string& name : split(value, '+')) {
-      kinds.push_back(surface_kinds()[read_choice(option, name, names, {})].kind);
+      kinds.push_back(surface_kinds()[read_choice(option, name, names)].kind);
     }
     water.surface = kinds;
   } else if (key == "geometry") {
-    const bool displaced = read_choice(option, value, {"normals", "displaced"}, {}) == 1;
+    const bool displaced = read_choice(option, value, {"normals", "displaced"}) == 1;
     water.geometry = displaced ? WaterGeometry::kDisplaced : WaterGeometry::kNormals;
   } else if (const SurfaceNumber* number = find_surface_number(key)) {
     const double v =
@@ -100,7 +93,7 @@ bool set_water_key(WaterOverrides& water, const std::string& key, const std::str
             : read_number(option, value, number->low, number->high);
     water.surface_changes.push_back([number, v](SurfaceSettings& s) { set_surface_number(s, *number, v); });
   } else if (const SurfaceChoice* choice = find_surface_choice(key)) {
-    const std::size_t v = read_choice(option, value, Names(choice->values.begin(), choice->values.end()), {});
+    const std::size_t v = read_choice(option, value, Names(choice->values.begin(), choice->values.end()));
     water.surface_changes.push_back([choice, v](SurfaceSettings& s) { set_surface_choice(s, *choice, v); });
   } else {
     return false;
@@ -126,7 +119,7 @@ void set_method_key(Options& options, const std::string& key, const std::string&
   const std::size_t dot = key.find('.');
   const std::string method_name = key.substr(0, dot), method_key = key.substr(dot + 1);
   const MethodInfo* method = find_method(method_name);
-  if (!method) read_choice("--set " + key + ", method", method_name, method_names(), kComingMethods);
+  if (!method) read_choice("--set " + key + ", method", method_name, method_names());
   if (!has_option(*method, method_key)) unknown_key(key, method);
   if (method_name == options.frame.method) options.frame.method_options[method_key] = value;
 }
@@ -176,7 +169,7 @@ std::vector<Aov> read_aovs(const std::string& text) {
   for (const AovInfo& info : aov_infos()) names.emplace_back(info.name);
   std::uint32_t asked = 0;
   for (const std::string& name : split(text, ',')) {
-    asked |= 1u << static_cast<int>(aov_infos()[read_choice("--aov", name, names, {})].aov);
+    asked |= 1u << static_cast<int>(aov_infos()[read_choice("--aov", name, names)].aov);
   }
   std::vector<Aov> aovs;
   for (const AovInfo& info : aov_infos()) {
@@ -221,7 +214,7 @@ int read_count(const char* option, const std::string& text, int low, int high) {
 
 void read_frame_settings(const RawOptions& raw, FrameSettings& frame) {
   if (raw.method) frame.method = *raw.method;
-  read_choice("--method", frame.method, method_names(), kComingMethods);
+  read_choice("--method", frame.method, method_names());
   if (raw.size) {
     const SizePx size = read_size("--size", *raw.size);
     frame.width_px = size.width;
@@ -233,17 +226,16 @@ void read_frame_settings(const RawOptions& raw, FrameSettings& frame) {
   frame.isa = raw.isa ? read_isa(*raw.isa) : supported_isas().front();
   if (raw.anisotropy) frame.anisotropy = read_count("--anisotropy", *raw.anisotropy, 1, 16);
   if (raw.shadows) {
-    frame.shadows = static_cast<Shadows>(read_choice("--shadows", *raw.shadows, {"off", "map", "rays"}, {}));
+    frame.shadows = static_cast<Shadows>(read_choice("--shadows", *raw.shadows, {"off", "map", "rays"}));
   }
   if (raw.shadow_map) frame.shadow_map_px = read_shadow_map(*raw.shadow_map);
   if (raw.reflections)
     frame.reflections =
-        static_cast<Reflections>(read_choice("--reflections", *raw.reflections, {"environment", "scene"}, {}));
+        static_cast<Reflections>(read_choice("--reflections", *raw.reflections, {"environment", "scene"}));
   if (raw.exposure)
     frame.exposure_stops = read_float("--exposure", *raw.exposure, -kMaxExposureStops, kMaxExposureStops);
   if (raw.tonemap) {
-    frame.tone_map =
-        read_choice("--tonemap", *raw.tonemap, {"none", "aces"}, {}) == 0 ? ToneMap::kNone : ToneMap::kAces;
+    frame.tone_map = read_choice("--tonemap", *raw.tonemap, {"none", "aces"}) == 0 ? ToneMap::kNone : ToneMap::kAces;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "bench/harness.h"
 #include "bench/scenes.h"
+#include "core/error.h"
 #include "refraction/renderer.h"
 
 namespace shoal::bench {
@@ -20,7 +21,14 @@ void frame(benchmark::State& state, std::uint64_t triangles, const char* method,
   settings.width_px = kWidth, settings.height_px = kHeight;
   settings.threads = threads;
   settings.isa = isa();
-  Renderer renderer(scene, settings);
+  std::unique_ptr<Renderer> made;
+  try {
+    made = std::make_unique<Renderer>(scene, settings);
+  } catch (const NotApplicable&) {
+    state.SkipWithError("not applicable to the scene");
+    return;
+  }
+  Renderer& renderer = *made;
   Frame result;
   std::int64_t k = -3;
   for (; k < 0; ++k) renderer.render(turned_left(first_camera(scene), k), 0.0, result);

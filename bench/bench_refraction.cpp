@@ -1,4 +1,5 @@
 // refraction/: the functions of the broad and the narrow phase.
+#include <string>
 #include <vector>
 
 #include "bench/harness.h"
@@ -62,6 +63,41 @@ void exact_rays(benchmark::State& state) {
   count_items(state, "block", kRegionSize * kRegionSize / 16.0);
 }
 
+// The ways to solve the flat path that docs/solvers.md compares.
+struct Solver {
+  const char* name;
+  PathWay way;
+  int steps;  // or points a side of the table
+};
+constexpr Solver kSolvers[] = {
+    {"fixed_point_1", PathWay::kFixedPoint, 1},
+    {"fixed_point_2", PathWay::kFixedPoint, 2},
+    {"fixed_point_4", PathWay::kFixedPoint, 4},
+    {"fixed_point_8", PathWay::kFixedPoint, 8},
+    {"fixed_point_16", PathWay::kFixedPoint, 16},
+    {"newton_1", PathWay::kNewton, 1},
+    {"newton_2", PathWay::kNewton, 2},
+    {"newton_3", PathWay::kNewton, 3},
+    {"newton_4", PathWay::kNewton, 4},
+    {"halley_1", PathWay::kHalley, 1},
+    {"halley_2", PathWay::kHalley, 2},
+    {"halley_3", PathWay::kHalley, 3},
+    {"quartic", PathWay::kQuartic, 0},
+    {"table_65", PathWay::kTable, 65},
+    {"table_129", PathWay::kTable, 129},
+    {"table_257", PathWay::kTable, 257},
+};
+
+void solve_paths(benchmark::State& state, const Solver& solver) {
+  PathTable table;
+  points(state, [&](Water& w, float* out) {
+    if (solver.way == PathWay::kTable && table.size == 0)
+      table = make_path_table(w.pass().map.path, static_cast<std::size_t>(solver.steps));
+    refraction_kernels(isa()).solve(w.pass().map, solver.way, solver.steps, table, w.far_m.data(), w.across_m.data(),
+                                    kPoints, out);
+  });
+}
+
 // All pixels of the frame against the direct visibility buffer.
 void confirm(benchmark::State& state, std::uint64_t triangles, bool by_neighbours) {
   Stages stages(pool_scene(triangles), kWidth, kHeight, 1);
@@ -85,6 +121,8 @@ void register_benchmarks() {
       kernels.virtual_distance(w.pass().map, w.far_m.data(), w.across_m.data(), kPoints, out);
     });
   });
+  for (const Solver& solver : kSolvers)
+    add(std::string("path_solvers/") + solver.name + "/1024", [&](auto& state) { solve_paths(state, solver); });
   add("virtual_position/pool/1024", [&](auto& state) {
     points(state, [&](Water& w, float* out) { kernels.virtual_position(w.pass().map, w.points.data(), kPoints, out); });
   });

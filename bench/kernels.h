@@ -6,6 +6,7 @@
 
 #include "core/isa.h"
 #include "raster/surface.h"
+#include "refraction/broad/path_solvers.h"
 #include "refraction/frame_data.h"
 
 // X(Type, name, Isa's constant, namespace) for every instruction set that is built.
@@ -29,10 +30,10 @@
 #else
 #define SHOAL_BENCH_NEON(X, Type, name)
 #endif
-#define SHOAL_BENCH_ISAS(X, Type, name)                            \
-  X(Type, name, kScalar, isa_scalar)                               \
-  SHOAL_BENCH_SSE42(X, Type, name) SHOAL_BENCH_AVX2(X, Type, name) \
-  SHOAL_BENCH_AVX512(X, Type, name) SHOAL_BENCH_NEON(X, Type, name)
+#define SHOAL_BENCH_ISAS(X, Type, name) \
+  X(Type, name, kScalar, isa_scalar)    \
+  SHOAL_BENCH_SSE42(X, Type, name)      \
+  SHOAL_BENCH_AVX2(X, Type, name) SHOAL_BENCH_AVX512(X, Type, name) SHOAL_BENCH_NEON(X, Type, name)
 #define SHOAL_BENCH_DECLARE(Type, name, kind, isa_namespace) const Type& name##_##isa_namespace();
 #define SHOAL_BENCH_CASE(Type, name, kind, isa_namespace) \
   case Isa::kind:                                         \
@@ -90,9 +91,14 @@ struct RasterKernels {
 };
 SHOAL_BENCH_TABLE(RasterKernels, raster_kernels)
 
+enum class PathWay { kFixedPoint, kNewton, kHalley, kQuartic, kTable };
+
 // Points are planes of x, y, z, `count` (a multiple of 16) floats each.
 struct RefractionKernels {
   void (*virtual_distance)(const BroadPhase&, const float* far_m, const float* across_m, std::size_t count, float* out);
+  // The same by another solver (refraction/broad/path_solvers.h).
+  void (*solve)(const BroadPhase&, PathWay way, int steps, const PathTable&, const float* far_m, const float* across_m,
+                std::size_t count, float* out);
   void (*virtual_position)(const BroadPhase&, const float* points, std::size_t count, float* out);
   void (*edge_deviation)(const BroadPhase&, const View&, const float* a, const float* b, std::size_t count, float* out);
   // View rays of one 64-pixel region to their refracted and reflected rays and differentials.

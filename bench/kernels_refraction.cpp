@@ -1,6 +1,7 @@
 // The broad and the narrow phase's functions, sixteen points or pixels at a time, one copy an ISA.
 #include "bench/kernels.h"
 #include "refraction/broad/broad_phase.h"
+#include "refraction/broad/path_solvers.h"
 #include "refraction/narrow/confirm_hit.h"
 #include "refraction/narrow/exact_ray.h"
 #include "refraction/pixel_stage.h"
@@ -19,6 +20,32 @@ void run_virtual_distance(const BroadPhase& bp, const float* far_m, const float*
     virtual_distance(bp.path, bp.eye_is_thin, WideF(bp.eye_distance_m), WideF::load(far_m + i),
                      WideF::load(across_m + i))
         .store(out + i);
+}
+
+SHOAL_INLINE PathSolution<WideF> solve_by(PathWay way, int steps, const PathConstants& c, const PathTable& table,
+                                          WideF thin_m, WideF dense_m, WideF d_m) {
+  switch (way) {
+    case PathWay::kFixedPoint:
+      return solve_fixed_point(c, thin_m, dense_m, d_m, steps);
+    case PathWay::kNewton:
+      return solve_newton(c, thin_m, dense_m, d_m, steps);
+    case PathWay::kHalley:
+      return solve_halley(c, thin_m, dense_m, d_m, steps);
+    case PathWay::kQuartic:
+      return solve_quartic(c, thin_m, dense_m, d_m);
+    default:
+      return solve_table(c, table, thin_m, dense_m, d_m);
+  }
+}
+
+void run_solve(const BroadPhase& bp, PathWay way, int steps, const PathTable& table, const float* far_m,
+               const float* across_m, std::size_t count, float* out) {
+  const WideF eye_m(bp.eye_distance_m);
+  for (std::size_t i = 0; i < count; i += 16) {
+    const WideF there = WideF::load(far_m + i), d_m = WideF::load(across_m + i);
+    const WideF thin_m = bp.eye_is_thin ? eye_m : there, dense_m = bp.eye_is_thin ? there : eye_m;
+    apparent_distance(solve_by(way, steps, bp.path, table, thin_m, dense_m, d_m), bp.eye_is_thin, there).store(out + i);
+  }
 }
 
 void run_virtual_position(const BroadPhase& bp, const float* points, std::size_t count, float* out) {
@@ -70,8 +97,8 @@ void run_confirm(const FrameData& f, bool by_neighbours, std::size_t region, std
 
 namespace shoal::bench {
 const RefractionKernels& SHOAL_BENCH_THIS_TABLE(refraction_kernels)() {
-  static constexpr RefractionKernels table{&run_virtual_distance, &run_virtual_position, &run_edge_deviation,
-                                           &run_exact_ray, &run_confirm};
+  static constexpr RefractionKernels table{&run_virtual_distance, &run_solve,     &run_virtual_position,
+                                           &run_edge_deviation,   &run_exact_ray, &run_confirm};
   return table;
 }
 }  // namespace shoal::bench

@@ -12,6 +12,11 @@ struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// A method that cannot show a scene, by what it is made for.
+struct NotApplicable : Error {
+  using Error::Error;
+};
+
 // Wrong usage of the command or of a setting: exits 2.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -54,16 +54,18 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
     const bool shows = find_region(f, kernels, water, pool);
     clock.lap("water.region");
     if (!shows) continue;
-    const auto front_end =
-        method.refracted_front_end != nullptr ? method.refracted_front_end : kernels.refracted_front_end;
-    pool.for_each(items, [&](std::size_t item, int) { front_end(f, water, item); });
-    count_capped(f);
-    clock.lap("refracted.front_end");
-    pool.for_each(layer_tiles, [&](std::size_t tile, int) {
-      if (f.tile_active[tile] != 0) kernels.draw_tile(f, f.refracted, method.refracted_alpha, &water, nullptr, tile);
-    });
-    clock.lap("refracted.visibility");
-    if (digests != nullptr) digests->refracted(f), clock.skip();
+    if (method.refracted_alpha != nullptr) {
+      const auto front_end =
+          method.refracted_front_end != nullptr ? method.refracted_front_end : kernels.refracted_front_end;
+      pool.for_each(items, [&](std::size_t item, int) { front_end(f, water, item); });
+      count_capped(f);
+      clock.lap("refracted.front_end");
+      pool.for_each(layer_tiles, [&](std::size_t tile, int) {
+        if (f.tile_active[tile] != 0) kernels.draw_tile(f, f.refracted, method.refracted_alpha, &water, nullptr, tile);
+      });
+      clock.lap("refracted.visibility");
+      if (digests != nullptr) digests->refracted(f), clock.skip();
+    }
 
     if (water.mirrors) {
       const WaterPass mirrored = mirrored_pass(water);

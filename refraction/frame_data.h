@@ -15,6 +15,8 @@
 #include "raster/setup.h"
 #include "raster/visibility.h"
 #include "refraction/broad/broad_phase.h"
+#include "refraction/field/distance_field.h"
+#include "refraction/floor.h"
 #include "refraction/renderer.h"
 #include "refraction/shadow_map.h"
 #include "refraction/trace/ray_queries.h"
@@ -27,6 +29,7 @@ namespace shoal {
 struct HitBuffers {
   AlignedArray<std::int32_t> refracted_id;  // kNoId: the ray leaves the scene
   AlignedArray<std::int32_t> mirrored_id;   // written where WaterPass::mirrors
+  AlignedArray<float> aim_x, aim_y, aim_z;  // world: where, by methods that know it; else empty
   void resize(const FrameGrid& g) {
     refracted_id.resize(g.pixel_slots());
     mirrored_id.resize(g.pixel_slots());
@@ -165,6 +168,8 @@ struct FrameData {
   GeometryView water_geometry;                     // the outlines of the bodies of water
   SunShadows shadows;                              // of the sun, which stands still as the scene does
   std::unique_ptr<RayQueries> rays;                // where the method or the shadows trace rays, else null
+  std::unique_ptr<DistanceFields> fields;          // of the method that has them, else null
+  std::vector<Floor> floors;                       // of the bodies, for the method that knows nothing else
   float method_option[kMaxMethodOptions] = {};     // of the method, in the order of its list
   std::vector<std::uint32_t> outline_first_chunk;  // of body b; one more at the end
   std::vector<SurfaceModel> surface_models;        // of the bodies

@@ -8,6 +8,8 @@
 
 namespace shoal {
 
+class ThreadPool;
+
 // Which of the covered pixels (bit i: lane i of the block at x_px, y_px) a masked triangle keeps: its material is asked
 // where the pass's ray meets it.
 using AlphaTest = std::uint32_t (*)(const FrameData&, const WaterPass*, std::int32_t id, int x_px, int y_px,
@@ -45,7 +47,7 @@ struct FrameKernels {
 // What a method brings: its broad phase and its narrow phase (refraction/methods/method.h).
 struct MethodKernels {
   BroadPhase (*map)(const WaterBody&, const View&);
-  AlphaTest refracted_alpha;
+  AlphaTest refracted_alpha;  // null: the method finds by itself what water shows, and no refracted layer is drawn
   void (*narrow)(FrameData&, const WaterPass&, std::size_t region);
   // The blended bins over one region of a water pass, into Blended::refracted or, for a mirrored pass, mirrored.
   void (*blend_water)(FrameData&, const WaterPass&, std::size_t region, int thread);
@@ -59,6 +61,9 @@ struct MethodKernels {
   void (*refracted_front_end)(FrameData&, const WaterPass&, std::size_t item) = nullptr;
   void (*blended_front_end)(FrameData&, const WaterPass&, std::size_t item) = nullptr;
   bool whole_scene = false;  // the layer is the whole scene without its water, not the plane's far side alone
+  // What the method keeps of the scene's geometry: called once with no camera where nothing moves, else in every frame
+  // with that frame's. Throws NotApplicable where the method cannot show the scene.
+  void (*prepare)(FrameData&, ThreadPool&, const Camera*) = nullptr;
 };
 
 // An option of a method, `--set KEY=VALUE`. Its value is a number: a truth value is 0 or 1.

@@ -99,6 +99,7 @@ struct Renderer::Impl {
     }
     find_blended(f, pool.threads());
     if (!moved) build_shadows(f, kernels, pool);
+    if (!moved && method.kernels.prepare != nullptr) method.kernels.prepare(f, pool, nullptr);
     for (const WaterBody& body : scene.waters)
       f.surface_models.push_back(make_surface_model(body.surface, plane_extent(body)));
     allocate();
@@ -180,7 +181,7 @@ struct Renderer::Impl {
   void sample(StageDigests* digests) { render_sample(frame, kernels, method.kernels, pool, clock, digests); }
 
   // Animated scenes: what moves, where it is at this time.
-  void move(double time_s) {
+  void move(const Camera& camera, double time_s) {
     update_render_scene(*moved, time_s, &pool);
     if (!scene.waters.empty()) {
       build_outlines();
@@ -190,6 +191,7 @@ struct Renderer::Impl {
     if (frame.rays != nullptr) frame.rays->update(), clock.lap("rays.build");
     build_shadows(frame, kernels, pool);
     clock.lap("shadow.map");
+    if (method.kernels.prepare != nullptr) method.kernels.prepare(frame, pool, &camera), clock.lap("method.build");
   }
 
   void render(const Camera& camera, double time_s, Frame& out) {
@@ -198,7 +200,7 @@ struct Renderer::Impl {
     StageDigests digests;
     StageDigests* wanted = f.settings.digests ? &digests : nullptr;
     clock.reset();
-    if (moved) move(time_s);
+    if (moved) move(camera, time_s);
     f.water_pixels = f.subdivision_capped = 0;
     f.ray_counts = RayCounts();
     f.time_s = time_s;
@@ -245,6 +247,10 @@ struct Renderer::Impl {
     out.stages_ms = clock.stages();
     out.frame_ms = clock.total_ms();
     out.subdivision_capped = f.subdivision_capped;
+    out.method_figures.clear();
+    if (f.fields != nullptr)
+      out.method_figures = {{"field_build_ms", f.fields->build_ms},
+                            {"field_mb", static_cast<double>(f.fields->bytes()) / 1048576.0}};
     out.rays.clear();
     if (f.rays != nullptr)
       for (int kind = 0; kind < RayCounts::kKinds; ++kind)

@@ -84,8 +84,9 @@ struct Frame {
   std::vector<std::pair<std::string, double>> stages_ms;     // in pipeline order
   double frame_ms = 0;
   std::uint64_t water_pixels = 0;
-  std::uint64_t subdivision_capped = 0;                     // triangles that reached the subdivision's level cap
-  std::vector<std::pair<std::string, std::uint64_t>> rays;  // traced, by kind; empty where none were
+  std::uint64_t subdivision_capped = 0;                        // triangles that reached the subdivision's level cap
+  std::vector<std::pair<std::string, double>> method_figures;  // what the method itself reports; mostly nothing
+  std::vector<std::pair<std::string, std::uint64_t>> rays;     // traced, by kind; empty where none were
 };
 
 // Holds what does not depend on camera and time: chunks, buffers, threads; of an animated scene a copy of its own,

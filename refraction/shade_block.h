@@ -104,13 +104,30 @@ SHOAL_INLINE Vec3<WideF> show_fetched(FrameData& f, const Block& block, const Wa
   // The other lanes' slots hold anything.
   return select<WideF>(through, load3(at.red, at.green, at.blue), broadcast<WideF>(Vec3f{0, 0, 0}));
 }
+// Of a method whose rays depend on the pixel: it has pixel_rays(frame, block, water, view ray, differential).
+template <class M>
+concept PixelRays = requires(const FrameData& f, const Block& block, const WaterPass& water, const Ray<WideF>& ray,
+                             const RayDifferential<WideF>& differential) {
+  M::pixel_rays(f, block, water, ray, differential);
+};
+template <class M>
+SHOAL_INLINE WaterRays<WideF> water_rays(const FrameData& f, const Block& block, const WaterPass& water,
+                                         const Ray<WideF>& ray, const RayDifferential<WideF>& differential) {
+  if constexpr (PixelRays<M>)
+    return M::pixel_rays(f, block, water, ray, differential);
+  else
+    return M::template rays<WideF>(water, ray, differential);
+}
+// Of a method that may find nothing where there is something: kMisses.
+template <class M>
+concept Misses = M::kMisses;
 
 // The lanes of a block that show one body's surface.
 template <class M>
 __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, const WaterPass& water,
                                            const Ray<WideF>& ray, WideM lanes, BlockColor& out) {
   const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
-  WaterRays<WideF> r = M::template rays<WideF>(water, ray, differential);
+  WaterRays<WideF> r = water_rays<M>(f, block, water, ray, differential);
   if constexpr (MirrorsItsWay<M>) M::mirror(f, water, block, r);
   const ExactRay<WideF>& at = r.at_surface;
   const bool eye_below = water.optics.eye_below;
@@ -128,6 +145,8 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
     if (any(through)) refracted = show_fetched(f, block, water, through);
   } else if (any(through)) {
     const WideI shown = WideI::load(f.hits.refracted_id.data() + block.offset);
+    if (Misses<M> && f.capture)
+      shade_detail::capture_hits(f, block, zero, zero, WideI(kNoId), HitKind::kMiss, through & !is_triangle(shown));
     refracted = look(f, water, r.refracted, r.refracted_differential, shown, through, !eye_below,
                      [&](const ShadedLanes& s, WideM hit) SHOAL_LAMBDA {
                        if (!f.capture) return;

@@ -62,46 +62,78 @@ SHOAL_INLINE PathConstants path_constants(float ior) {
   return c;
 }
 
+// A path's lengths in units near 1, and where a solver starts.
+template <class F>
+struct ScaledPath {
+  F thin, dense, d;
+  F guarded_thin_m;  // the thin side's distance as the solvers take it, in metres
+  F lo, hi;          // bounds of S
+  F start;
+};
+
+//   c  not the identity; the lengths as for solve_path
+// Source: bounds lo = max(d / (a + b / r), (d - b / sqrt m) / a) from q >= r, q >= sqrt(m) S, and hi, the root of a
+//         quadratic, from q <= r + sqrt(m) S; start sqrt(lo hi).
+template <class F>
+SHOAL_INLINE ScaledPath<F> scale_path(const PathConstants& c, F thin_m, F dense_m, F d_m) {
+  // A power of two takes the lengths near 1, exactly, so that no product over- or underflows.
+  const F size = clamp(thin_m + dense_m + d_m, F(0x1p-100f), F(0x1p120f));
+  ScaledPath<F> p;
+  p.guarded_thin_m = max(thin_m, F(kMinThin) * size);
+  const F scale = as_float(IntOf<F>(0x7F000000) - (as_int(size) & IntOf<F>(0x7F800000)));
+  const F a = p.guarded_thin_m * scale, b = dense_m * scale, d = d_m * scale;
+  const F r = F(c.ratio);
+  p.lo = max(d / (a + b * F(c.inv_ratio)), (d - b * F(c.inv_sqrt_m)) / a);
+  const F quad_a = F(c.sqrt_m) * a, quad_b = r * a + b - F(c.sqrt_m) * d, quad_c = r * d;
+  const F root = sqrt(quad_b * quad_b + F(4.0f) * quad_a * quad_c);
+  const MaskOf<F> rising = quad_b >= F(0.0f);
+  p.hi = select(rising, F(2.0f) * quad_c, root - quad_b) / select(rising, quad_b + root, F(2.0f) * quad_a);
+  p.start = sqrt(p.lo * p.hi);
+  p.thin = a, p.dense = b, p.d = d;
+  return p;
+}
+
+// q of a tangent on the thin side.
+template <class F>
+SHOAL_INLINE F path_q(const PathConstants& c, F s) {
+  return sqrt(F(c.ratio * c.ratio) + F(c.m) * s * s);
+}
+
+// One step of Halley's method from s: g = S / q, g' = r^2 / q^3, g'' = -3 m r^2 S / q^5.
+template <class F>
+SHOAL_INLINE F halley_step(const PathConstants& c, const ScaledPath<F>& p, F s) {
+  const F m = F(c.m), r2 = F(c.ratio * c.ratio);
+  const F i = F(1.0f) / sqrt(r2 + m * s * s);
+  const F slope = p.dense * r2 * (i * i * i);
+  const F f = p.thin * s + p.dense * (s * i) - p.d;
+  const F f1 = p.thin + slope;
+  const F f2 = F(-3.0f) * m * slope * (s * i * i);
+  return max(s - (F(2.0f) * f * f1) / (F(2.0f) * f1 * f1 - f * f2), F(0.0f));
+}
+
+// The path where the ratio of the indices is 1: a straight line.
+template <class F>
+SHOAL_INLINE PathSolution<F> straight_path(F thin_m, F dense_m, F d_m) {
+  const F size = clamp(thin_m + dense_m + d_m, F(0x1p-100f), F(0x1p120f));
+  const F guarded_thin_m = max(thin_m, F(kMinThin) * size);
+  return {min(d_m / (guarded_thin_m + dense_m), F(1e10f)), F(1.0f), guarded_thin_m};
+}
+
 // Solves F(S) = 0.
 //
 //   c                     the media
 //   thin_m, dense_m, d_m  metres, >= 0 and finite: distances from the plane, horizontal distance
 // Returns the path; for any finite input all three are finite. With all three zero it is the path along the normal.
-// Source: derived from Snell's law. Bounds lo = max(d / (a + b / r), (d - b / sqrt m) / a) from q >= r, q >= sqrt(m) S,
-//         and hi, the root of a quadratic, from q <= r + sqrt(m) S; start sqrt(lo hi); two Halley steps.
+// Source: derived from Snell's law: scale_path's start, two Halley steps. Others to compare it with: path_solvers.h.
 // Differs: Steel (2024) iterates on the depth ratio itself by fixed point, which diverges from the dense side.
 // Error: that of the virtual distances dense_m / q and thin_m q, below.
 template <class F>
 SHOAL_INLINE PathSolution<F> solve_path(const PathConstants& c, F thin_m, F dense_m, F d_m) {
-  // A power of two takes the lengths near 1, exactly, so that no product over- or underflows.
-  const F size = clamp(thin_m + dense_m + d_m, F(0x1p-100f), F(0x1p120f));
-  const F guarded_thin_m = max(thin_m, F(kMinThin) * size);
-  if (c.identity) {
-    const F tangent = d_m / (guarded_thin_m + dense_m);
-    return {min(tangent, F(1e10f)), F(1.0f), guarded_thin_m};
-  }
-  const F scale = as_float(IntOf<F>(0x7F000000) - (as_int(size) & IntOf<F>(0x7F800000)));
-  const F a = guarded_thin_m * scale, b = dense_m * scale, d = d_m * scale;
-  const F r = F(c.ratio), m = F(c.m), r2 = F(c.ratio * c.ratio);
-
-  // Bounds and start.
-  const F lo = max(d / (a + b * F(c.inv_ratio)), (d - b * F(c.inv_sqrt_m)) / a);
-  const F quad_a = F(c.sqrt_m) * a, quad_b = r * a + b - F(c.sqrt_m) * d, quad_c = r * d;
-  const F root = sqrt(quad_b * quad_b + F(4.0f) * quad_a * quad_c);
-  const MaskOf<F> rising = quad_b >= F(0.0f);
-  const F hi = select(rising, F(2.0f) * quad_c, root - quad_b) / select(rising, quad_b + root, F(2.0f) * quad_a);
-  F s = sqrt(lo * hi);
-
-  // Halley: g = S / q, g' = r^2 / q^3, g'' = -3 m r^2 S / q^5.
-  for (int step = 0; step < 2; ++step) {
-    const F i = F(1.0f) / sqrt(r2 + m * s * s);
-    const F slope = b * r2 * (i * i * i);
-    const F f = a * s + b * (s * i) - d;
-    const F f1 = a + slope;
-    const F f2 = F(-3.0f) * m * slope * (s * i * i);
-    s = max(s - (F(2.0f) * f * f1) / (F(2.0f) * f1 * f1 - f * f2), F(0.0f));
-  }
-  return {s, sqrt(r2 + m * s * s), guarded_thin_m};
+  if (c.identity) return straight_path(thin_m, dense_m, d_m);
+  const ScaledPath<F> p = scale_path(c, thin_m, dense_m, d_m);
+  F s = p.start;
+  for (int step = 0; step < 2; ++step) s = halley_step(c, p, s);
+  return {s, path_q(c, s), p.guarded_thin_m};
 }
 
 // Where the far end of the path appears to the eye, straight behind its own foot on the plane.

@@ -9,7 +9,8 @@
 //     static constexpr bool kFollowsWaves = true;                    // that ray is bent by the waves' normals
 //   };
 //
-// MethodStages<MyMethod>::kernels() makes the frame's stages of it.
+// It may also find by itself what its rays meet (distance_field.cpp), and have rays that depend on the pixel (below,
+// PixelRays; block_grid.cpp). MethodStages<MyMethod>::kernels() makes the frame's stages of it.
 #pragma once
 
 #include "refraction/kernels.h"
@@ -54,8 +55,36 @@ SHOAL_INLINE void narrow_mirrored(FrameData& f, const WaterPass& water, const Bl
   store_masked(f.hits.mirrored_id.data() + block.offset, id, here);
 }
 
+// The map and the rays of flat water's physics: geometry where the plane shows it, each ray as the surface bends it.
+struct TrueRays {
+  static constexpr bool kFollowsWaves = true;
+  static BroadPhase map(const WaterBody& body, const View& view) { return make_broad_phase(body, view); }
+
+  template <class F>
+  SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
+    return bent_rays(water, view_ray, differential);
+  }
+};
+
+// For a method that draws no refracted layer: writes what a block's rays met into it, for blended materials are laid
+// over what it holds.
+//   id, position  of the points met; kNoId: none
+//   at            of the block in the layer
+SHOAL_INLINE void note_layer(FrameData& f, const WaterPass& water, WideI id, Vec3<WideF> position, std::size_t at) {
+  const ClipVertex<WideF> clip = project(f.view, virtual_position(water.map, position));
+  const WideM seen = is_triangle(id) & (clip.w > WideF(0.0f));
+  const WideF depth = select(seen, clip.z / select(seen, clip.w, WideF(1.0f)), WideF(0.0f));
+  depth.store(f.refracted.depth.data() + at);
+  id.store(f.refracted.id.data() + at);
+}
+
 template <class M>
 struct MethodStages {
+  // The lanes of a block that show the body's surface.
+  static WideM shown(const FrameData& f, const WaterPass& water, const Block& block) {
+    return (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
+  }
+
   // Alpha test of the refracted pass: where the method's ray meets the triangle.
   static std::uint32_t refracted_alpha(const FrameData& f, const WaterPass* water, std::int32_t id, int x_px, int y_px,
                                        std::uint32_t cover) {
@@ -70,8 +99,7 @@ struct MethodStages {
   static void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
     const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
     for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
-      const WideM here =
-          (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
+      const WideM here = shown(f, water, block);
       if (none(here)) return;
       const WaterRays<WideF> rays = M::template rays<WideF>(water, block_rays(f.view, block), differential);
       const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),

@@ -9,15 +9,7 @@
 namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
-struct TwoPhase {
-  static constexpr bool kFollowsWaves = true;
-  static BroadPhase map(const WaterBody& body, const View& view) { return make_broad_phase(body, view); }
-
-  template <class F>
-  SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
-    return bent_rays(water, view_ray, differential);
-  }
-};
+struct TwoPhase : TrueRays {};
 }  // namespace
 
 Method two_phase() {

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -133,7 +134,14 @@ void run(const Arguments& arguments) {
     for (const std::string& method : arguments.methods) {
       shoal::FrameSettings settings = arguments.settings;
       settings.method = method;
-      shoal::Renderer renderer(scene, settings);
+      std::unique_ptr<shoal::Renderer> made;
+      try {
+        made = std::make_unique<shoal::Renderer>(scene, settings);
+      } catch (const shoal::NotApplicable&) {
+        std::printf("%s %s: not applicable\n", scene_name.c_str(), method.c_str());
+        continue;
+      }
+      shoal::Renderer& renderer = *made;
       for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         if (arguments.camera && *arguments.camera != i) continue;
         shoal::Frame frame;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "refraction/renderer.h"
 #include "refraction_oracle.h"
 
@@ -44,7 +45,12 @@ void check_settings(const char* name, int width_px, int height_px, int spp, int 
     settings.anisotropy = anisotropy;
     settings.digests = true;
     settings.shadow_map_px = 512;  // of a map that each of these renderers draws anew
-    const std::vector<Digests> expected = render_all(scene, settings, {Isa::kScalar, 1, 64});
+    std::vector<Digests> expected;
+    try {
+      expected = render_all(scene, settings, {Isa::kScalar, 1, 64});
+    } catch (const NotApplicable&) {
+      continue;  // block-grid, where no floor is level
+    }
     std::vector<How> ways;
     for (const Isa isa : supported_isas()) {
       // The best set in full where a frame is one plain sample, all others along the diagonals.

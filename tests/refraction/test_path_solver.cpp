@@ -5,58 +5,29 @@
 #include <limits>
 #include <vector>
 
+#include "path_oracle.h"
 #include "refraction/broad/path_solver.h"
 
 namespace {
 
 using namespace shoal;
-
-// Apparent distance by bisection on the sine of the dense side's angle: Snell's law in its plainest form, a variable
-// that the solver does not use, and bounded by 1 / r.
-double oracle_distance(double ior, bool eye_above, double eye_m, double far_m, double d_m) {
-  const double n_eye = eye_above ? 1.0 : ior, n_far = eye_above ? ior : 1.0;
-  const double largest = std::min(1.0, n_far / n_eye);  // of the eye side's sine
-  double lo = 0.0, hi = largest;
-  // Near grazing the sine's digits run out: bisect the complement there. long double carries both.
-  const auto tangent = [](long double sine) { return sine / std::sqrt((1.0L - sine) * (1.0L + sine)); };
-  long double l = lo, h = hi, eye_tangent = 0.0L;
-  for (int i = 0; i < 300; ++i) {
-    const long double mid = 0.5L * (l + h);
-    const long double far_sine = mid * n_eye / n_far;
-    const bool beyond = far_sine >= 1.0L || mid >= 1.0L;
-    const long double reach = beyond ? 0.0L : eye_m * tangent(mid) + far_m * tangent(far_sine);
-    (beyond || reach > d_m ? h : l) = mid;
-  }
-  eye_tangent = tangent(l);
-  return static_cast<double>(d_m / eye_tangent - eye_m);
-}
+using namespace shoal_test;
 
 struct Worst {
   double relative = 0, px = 0;
 };
 
-// Pixels along the screen at 1080 lines and 60 degrees (935 px a unit), eye 2 m from the plane.
-void note_error(Worst& worst, double got, double want, double eye_m, double d_m) {
-  worst.relative = std::max(worst.relative, std::fabs(got - want) / want);
-  worst.px = std::max(worst.px, 935.0 * std::fabs(std::atan2(d_m, eye_m + got) - std::atan2(d_m, eye_m + want)));
-}
-
 Worst scan(float ior, bool eye_above, bool log_spaced) {
   const PathConstants constants = path_constants(ior);
   const bool eye_is_thin = eye_above != constants.water_is_thin;
   Worst worst;
-  for (int i = 1; i <= 200; ++i) {
-    for (int j = 0; j <= 125; ++j) {
-      const float u = log_spaced ? static_cast<float>(std::pow(10.0, -2.0 + (2.0 + std::log10(50.0)) * i / 200.0))
-                                 : 0.25f * static_cast<float>(i);
-      const float far_m = static_cast<float>(2.0 * std::pow(10.0, -3.0 + 5.0 * j / 125.0));
-      const float d_m = 2.0f * u;
-      const float got = virtual_distance(constants, eye_is_thin, 2.0f, far_m, d_m);
-      const double want = oracle_distance(static_cast<double>(ior), eye_above, 2.0, static_cast<double>(far_m),
-                                          static_cast<double>(d_m));
-      note_error(worst, static_cast<double>(got), want, 2.0, static_cast<double>(d_m));
-    }
-  }
+  for_each_path(log_spaced, [&](float far_m, float d_m) {
+    const double got = static_cast<double>(virtual_distance(constants, eye_is_thin, 2.0f, far_m, d_m));
+    const double want =
+        oracle_distance(static_cast<double>(ior), eye_above, 2.0, static_cast<double>(far_m), static_cast<double>(d_m));
+    worst.relative = std::max(worst.relative, std::fabs(got - want) / want);
+    worst.px = std::max(worst.px, pixels_between(got, want, static_cast<double>(d_m)));
+  });
   return worst;
 }
 
