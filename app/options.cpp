@@ -26,10 +26,6 @@ constexpr std::int64_t kMaxTriangles = 50'000'000;
 
 const Names kWaterKeys = {"size", "depth", "ior", "absorption", "surface", "geometry"};
 
-bool contains(const Names& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 [[noreturn]] void unknown(std::string_view option, std::string_view value, const Names& available) {
   throw UsageError(fmt::format("{} '{}': unknown; expected one of: {}", option, value, join(available)));
 }

@@ -64,7 +64,7 @@ struct Options {
   bool digest = false, quiet = false;
 };
 
-// Throws UsageError for everything that is unknown, out of range, of another command, or has not come yet.
+// Throws UsageError for everything that is unknown, out of range or of another command.
 Options read_options(const RawOptions& raw);
 // Of read_options, what makes the scene: for commands without a frame.
 SceneOptions read_scene_options(const RawOptions& raw);

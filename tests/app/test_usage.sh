@@ -46,7 +46,6 @@ refuses 2 "--frames and --repeat exclude" "$shoal" render box -o f%d.png --frame
 
 # --- Names
 r "--method 'foo': unknown; expected one of: .*two-phase" --method foo
-r "--method 'block-grid': has not come yet" --method block-grid
 r "option 'depth' of ray-traced: '9' is not allowed; expected a whole number from 1 to 8" --method ray-traced --set depth=9
 r "--methods: belongs to shoal compare" --methods none
 r "--reference: belongs to shoal compare" --reference none
@@ -90,7 +89,6 @@ r "--set octaves" --set octaves=9
 r "--set fade 'steep': unknown" --set fade=steep
 r "unknown key" --set two-phase.nonsense=1
 r "unknown" --set three-phase.x=1
-r "has not come yet" --set block-grid.x=1
 
 # --- Outputs
 refuses 2 "-o 'x.jpg': not a picture's name" "$shoal" render box -o x.jpg
