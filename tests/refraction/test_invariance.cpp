@@ -52,8 +52,15 @@ void check_settings(const char* name, int width_px, int height_px, int spp, int 
       continue;  // block-grid, where no floor is level
     }
     std::vector<How> ways;
+    const bool is_default = &method == &method_infos().front();
     for (const Isa isa : supported_isas()) {
-      // The best set in full where a frame is one plain sample, all others along the diagonals.
+      // Of the default method the best set in full where a frame is one plain sample, all others along the diagonals;
+      // of every other method the corners, for its stages are made of the same templates.
+      if (!is_default) {
+        ways.push_back({isa, 7, 16});
+        if (isa == supported_isas().front()) ways.push_back({isa, 2, 256});
+        continue;
+      }
       for (const int tile : {16, 32, 64, 128, 256})
         for (const int threads : {1, 2, 7})
           if ((spp == 1 && anisotropy == 1 && isa == supported_isas().front()) || (tile / 16 + threads) % 3 == 0)
