@@ -19,6 +19,15 @@ static void trace_sample(FrameData& f, const MethodKernels& method, ThreadPool& 
   if (digests != nullptr) digests->direct(f), digests->shaded(f), clock.skip();
 }
 
+// Where waves bend rays through a layer: its edges.
+static void find_edges(const FrameData& f, const FrameKernels& kernels, const WaterPass& water,
+                       const VisibilityBuffer& layer, LayerEdges& edges, ThreadPool& pool, StageClock& clock) {
+  if (water.surface == nullptr) return;
+  pool.for_each(f.layers.grid.region_count(),
+                [&](std::size_t region, int) { kernels.find_edges(layer, edges, region); });
+  clock.lap("water.edges");
+}
+
 void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernels& method, ThreadPool& pool,
                    StageClock& clock, StageDigests* digests) {
   const std::size_t items = f.bins.items.size();
@@ -64,6 +73,7 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
         if (f.tile_active[tile] != 0) kernels.draw_tile(f, f.refracted, method.refracted_alpha, &water, nullptr, tile);
       });
       clock.lap("refracted.visibility");
+      find_edges(f, kernels, water, f.refracted, f.refracted_edges, pool, clock);
       if (digests != nullptr) digests->refracted(f), clock.skip();
     }
 
@@ -76,6 +86,7 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
           kernels.draw_tile(f, f.mirrored, kernels.mirrored_alpha, &mirrored, nullptr, tile);
       });
       clock.lap("reflected.visibility");
+      find_edges(f, kernels, water, f.mirrored, f.mirrored_edges, pool, clock);
       if (digests != nullptr) digests->reflected(f), clock.skip();
     }
 

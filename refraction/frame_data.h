@@ -17,6 +17,8 @@
 #include "refraction/broad/broad_phase.h"
 #include "refraction/field/distance_field.h"
 #include "refraction/floor.h"
+#include "refraction/narrow/layer_edges.h"
+#include "refraction/narrow/triangle_tree.h"
 #include "refraction/renderer.h"
 #include "refraction/shadow_map.h"
 #include "refraction/trace/ray_queries.h"
@@ -126,7 +128,7 @@ struct LayerGrid {
     return (of_frame / across + margin) * static_cast<std::size_t>(grid.regions_x) + of_frame % across + margin;
   }
 };
-inline constexpr int kWaveMargin_px = 128;
+inline constexpr int kWaveMargin_px = 64;
 
 // One warped pass over the scene for a body of water: refracted, or mirrored.
 struct WaterPass {
@@ -168,6 +170,7 @@ struct FrameData {
   GeometryView water_geometry;                     // the outlines of the bodies of water
   SunShadows shadows;                              // of the sun, which stands still as the scene does
   std::unique_ptr<RayQueries> rays;                // where the method or the shadows trace rays, else null
+  std::unique_ptr<TriangleTree> tree;              // over the scene, where waves bend rays, else null
   std::unique_ptr<DistanceFields> fields;          // of the method that has them, else null
   std::vector<Floor> floors;                       // of the bodies, for the method that knows nothing else
   float method_option[kMaxMethodOptions] = {};     // of the method, in the order of its list
@@ -190,6 +193,7 @@ struct FrameData {
   PassBins water_bins;
   Blended blended;
   VisibilityBuffer direct, refracted, mirrored;
+  LayerEdges refracted_edges, mirrored_edges;  // filled where waves bend rays
   std::vector<std::uint8_t> region_of_body;  // [regions] 64-pixel cells that show this pass's body, or touch such
   std::vector<std::uint8_t> layer_regions;   // [layers' regions] that are drawn
   std::vector<std::uint8_t> tile_active;     // [layers' tiles] that those touch

@@ -42,6 +42,8 @@ struct FrameKernels {
   void (*blend_direct)(FrameData&, std::size_t region, int thread);
   // Displaced water over one region of the direct pass, where it is in front.
   void (*displaced_water)(FrameData&, std::size_t region);
+  // Edges of one region of a layer (refraction/narrow/layer_edges.h).
+  void (*find_edges)(const VisibilityBuffer&, LayerEdges&, std::size_t region);
 };
 
 // What a method brings: its broad phase and its narrow phase (refraction/methods/method.h).

@@ -92,6 +92,7 @@ struct Renderer::Impl {
     filter_materials();
     f.bins = make_bins(scene.geometry.chunks.size());
     f.water_bins.items.resize(scene.waters.size());
+    if (waves) f.tree = std::make_unique<TriangleTree>(), f.tree->build(scene.geometry, scene.materials);
     read_method_options(method, settings.method_options, f.method_option);
     if (method.kernels.trace != nullptr || settings.shadows == Shadows::kRays) {
       f.rays = make_ray_queries(scene, pool.threads());
@@ -150,6 +151,7 @@ struct Renderer::Impl {
       f.refracted.resize(f.layers.grid);
       f.mirrored.resize(f.layers.grid);
       f.hits.resize(f.grid);
+      if (f.tree != nullptr) f.refracted_edges.resize(f.layers.grid), f.mirrored_edges.resize(f.layers.grid);
       if (method.kernels.light_layer != nullptr) f.layer.resize(f.grid), f.fetched.resize(f.grid);
     }
     if (captures()) {
@@ -189,6 +191,7 @@ struct Renderer::Impl {
     }
     clock.lap("animate");
     if (frame.rays != nullptr) frame.rays->update(), clock.lap("rays.build");
+    if (frame.tree != nullptr) frame.tree->refit(scene.geometry), clock.lap("tree.build");
     build_shadows(frame, kernels, pool);
     clock.lap("shadow.map");
     if (method.kernels.prepare != nullptr) method.kernels.prepare(frame, pool, &camera), clock.lap("method.build");

@@ -71,6 +71,7 @@ struct ShadeBeforeStages {
 
   static void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
     const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
+    NarrowPhase phase(f, water);
     for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
       const WideM here =
           (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
@@ -83,7 +84,7 @@ struct ShadeBeforeStages {
         const LayerPlace place = M::look(LookUp{f, water, block, view_ray, rays.at_surface, through});
         fetch_layer(f, water, block, rays.at_surface, place, through);
       }
-      narrow_mirrored(f, water, block, rays.reflected, here);
+      phase.mirror(block, rays, here);
     });
   }
 

@@ -116,6 +116,7 @@ void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
   const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
   Corners corners;
   bool traced = false;
+  NarrowPhase phase(f, water);
   for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
     const WideM here = Stages::shown(f, water, block);
     if (none(here)) return;
@@ -136,7 +137,7 @@ void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
     store_masked(f.hits.refracted_id.data() + block.offset, id, here);
     shade_detail::put3(f.hits.aim_x, f.hits.aim_y, f.hits.aim_z, block.offset, aim, here);
     if (f.blended.any()) note_layer(f, water, id, aim, f.layers.offset(block.x_px, block.y_px));
-    narrow_mirrored(f, water, block, rays.reflected, here);
+    phase.mirror(block, rays, here);
   });
 }
 

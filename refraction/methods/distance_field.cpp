@@ -34,6 +34,7 @@ void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
   const std::vector<DistanceField>& fields = water.optics.eye_below ? f.fields->above : f.fields->below;
   const DistanceField& field = fields[static_cast<std::size_t>(water.index)];
   const MarchSettings settings{f.method_option[kStop], static_cast<int>(f.method_option[kSteps])};
+  NarrowPhase phase(f, water);
   for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
     const WideM here = Stages::shown(f, water, block);
     if (none(here)) return;
@@ -45,7 +46,7 @@ void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
     if (f.blended.any())
       note_layer(f, water, hit.id, ray.origin_world + ray.direction_world * hit.t,
                  f.layers.offset(block.x_px, block.y_px));
-    narrow_mirrored(f, water, block, rays.reflected, here);
+    phase.mirror(block, rays, here);
   });
 }
 

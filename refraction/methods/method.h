@@ -16,6 +16,7 @@
 #include "refraction/kernels.h"
 #include "refraction/narrow/confirm_hit.h"
 #include "refraction/narrow/march_hit.h"
+#include "refraction/narrow/unsure_rays.h"
 #include "refraction/pixel_stage.h"
 #include "refraction/shade_block.h"
 
@@ -43,17 +44,46 @@ SHOAL_INLINE WaterRays<F> straight_rays(const WaterPass& water, Ray<F> view_ray,
           reflected_differential(crossing, hit)};
 }
 
-// What the surface mirrors, found as every method finds it: by the true reflected ray.
-SHOAL_INLINE void narrow_mirrored(FrameData& f, const WaterPass& water, const Block& block, const Ray<WideF>& reflected,
-                                  WideM here) {
-  if (!water.mirrors) return;
-  const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),
-              y = WideI(block.y_px + f.layers.margin_px) + block_y();
-  const WideI mirrored = WideI::load(f.mirrored.id.data() + f.layers.offset(block.x_px, block.y_px));
-  const WideI id = water.surface != nullptr ? march_hit(f, Layer{f.mirrored, water, true}, reflected, mirrored, here)
-                                            : confirm_hit(f.geometry, f.mirrored, reflected, mirrored, x, y, here).id;
-  store_masked(f.hits.mirrored_id.data() + block.offset, id, here);
-}
+// The narrow phase of one region: what the rays of its blocks meet in a layer, or else in the scene.
+class NarrowPhase {
+ public:
+  NarrowPhase(FrameData& frame, const WaterPass& pass)
+      : f(frame), water(pass), refracted_(frame, frame.hits.refracted_id.data()),
+        mirrored_(frame, frame.hits.mirrored_id.data()) {}
+
+  // Of the block's pixels at `here`, which show the water.
+  void refract(const Block& block, const WaterRays<WideF>& rays, WideM here, bool bent) {
+    const WideM through = here & rays.at_surface.transmitted;
+    meet({f.refracted, f.refracted_edges, water, false}, block, rays.refracted, rays.refracted_differential, here,
+         through, bent, f.hits.refracted_id, refracted_);
+  }
+  // What the surface mirrors is found alike by every method.
+  void mirror(const Block& block, const WaterRays<WideF>& rays, WideM here) {
+    if (!water.mirrors) return;
+    meet({f.mirrored, f.mirrored_edges, water, true}, block, rays.reflected, rays.reflected_differential, here, here,
+         water.surface != nullptr, f.hits.mirrored_id, mirrored_);
+  }
+
+ private:
+  void meet(const Layer& layer, const Block& block, const Ray<WideF>& ray, const RayDifferential<WideF>& differential,
+            WideM here, WideM lanes, bool bent, AlignedArray<std::int32_t>& ids, UnsureRays& unsure) {
+    const WideI own = WideI::load(layer.visibility.id.data() + f.layers.offset(block.x_px, block.y_px));
+    if (bent) {
+      const MarchedHit hit = march_hit(f, layer, ray, own, lanes);
+      store_masked(ids.data() + block.offset, hit.id, here);
+      unsure.add(ray, differential, block.offset, lanes & !hit.sure);
+      return;
+    }
+    const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),
+                y = WideI(block.y_px + f.layers.margin_px) + block_y();
+    const WideI id = confirm_hit(f.geometry, layer.visibility, ray, own, x, y, lanes).id;
+    store_masked(ids.data() + block.offset, id, here);
+  }
+
+  FrameData& f;
+  const WaterPass& water;
+  UnsureRays refracted_, mirrored_;
+};
 
 // The map and the rays of flat water's physics: geometry where the plane shows it, each ray as the surface bends it.
 struct TrueRays {
@@ -98,20 +128,13 @@ struct MethodStages {
 
   static void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
     const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
+    NarrowPhase phase(f, water);
     for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
       const WideM here = shown(f, water, block);
       if (none(here)) return;
       const WaterRays<WideF> rays = M::template rays<WideF>(water, block_rays(f.view, block), differential);
-      const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),
-                  y = WideI(block.y_px + f.layers.margin_px) + block_y();
-      const std::size_t at = f.layers.offset(block.x_px, block.y_px);
-      const WideI own = WideI::load(f.refracted.id.data() + at);
-      const WideM through = here & rays.at_surface.transmitted;
-      const bool bent = water.surface != nullptr && M::kFollowsWaves;
-      const WideI id = bent ? march_hit(f, Layer{f.refracted, water, false}, rays.refracted, own, through)
-                            : confirm_hit(f.geometry, f.refracted, rays.refracted, own, x, y, through).id;
-      store_masked(f.hits.refracted_id.data() + block.offset, id, here);
-      narrow_mirrored(f, water, block, rays.reflected, here);
+      phase.refract(block, rays, here, water.surface != nullptr && M::kFollowsWaves);
+      phase.mirror(block, rays, here);
     });
   }
 

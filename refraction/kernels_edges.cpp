@@ -1,0 +1,80 @@
+// Edges of a layer (refraction/narrow/layer_edges.h).
+#include "refraction/narrow/layer_edges.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+namespace {
+
+// Depth as drawn is linear over a plane, so its second differences are 0 there; at an edge they are the step. A share of
+// the nearest depth: of perspective's depth, which goes as the inverse of the distance, the same share of the distance.
+constexpr float kLeastStep = 0.003f;
+
+// A region and a pixel around it, by rows: pixel (x, y) of the region is at[y + 1][kFirst + x].
+constexpr int kFirst = 4, kRow = kRegionSize + 32;
+using Rows = float[kRegionSize + 2][kRow];
+
+// Beyond the layer is as at its border.
+void copy_rows(const VisibilityBuffer& layer, int x0, int y0, Rows& at) {
+  const FrameGrid& grid = layer.grid;
+  const float* depth = layer.depth.data();
+  if (x0 > 0 && y0 > 0 && x0 + kRegionSize < grid.width_px && y0 + kRegionSize < grid.height_px) {
+    for (int by = -1; by <= kRegionSize / kBlockSize; ++by)
+      for (int bx = -1; bx <= kRegionSize / kBlockSize; ++bx) {
+        const float* block = depth + grid.block_offset(x0 / kBlockSize + bx, y0 / kBlockSize + by);
+        for (int row = 0; row < kBlockSize; ++row) {
+          const int y = by * kBlockSize + row + 1;
+          if (y < 0 || y >= kRegionSize + 2) continue;
+          for (int column = 0; column < kBlockSize; ++column)
+            at[y][kFirst + bx * kBlockSize + column] = block[row * kBlockSize + column];
+        }
+      }
+    return;
+  }
+  for (int y = -1; y <= kRegionSize; ++y)
+    for (int x = -1; x <= kRegionSize; ++x) {
+      const int px = max(min(x0 + x, grid.width_px - 1), 0), py = max(min(y0 + y, grid.height_px - 1), 0);
+      at[y + 1][kFirst + x] = depth[grid.slot(px, py)];
+    }
+}
+
+SHOAL_INLINE WideF nearest_at_edge(const Rows& at, int x, int y) {
+  const auto depth = [&](int dx, int dy) SHOAL_LAMBDA { return WideF::load(&at[y + 1 + dy][kFirst + x + dx]); };
+  const WideF middle = depth(0, 0), twice = middle + middle;
+  WideF nearest = middle, bend(0.0f);
+  const auto across = [&](int dx, int dy) SHOAL_LAMBDA {
+    const WideF a = depth(-dx, -dy), b = depth(dx, dy);
+    nearest = max(nearest, max(a, b));
+    bend = max(bend, abs((a + b) - twice));
+  };
+  across(1, 0), across(0, 1), across(1, 1), across(1, -1);
+  return select(bend > nearest * WideF(kLeastStep), nearest, WideF(0.0f));
+}
+
+}  // namespace
+
+void find_edges(const VisibilityBuffer& layer, LayerEdges& edges, std::size_t region) {
+  const FrameGrid& grid = layer.grid;
+  const int x0 = static_cast<int>(region % static_cast<std::size_t>(grid.regions_x)) * kRegionSize;
+  const int y0 = static_cast<int>(region / static_cast<std::size_t>(grid.regions_x)) * kRegionSize;
+  alignas(64) Rows at;
+  copy_rows(layer, x0, y0, at);
+  for (int y = 0; y < kRegionSize; y += kBlockSize)
+    for (int x = 0; x < kRegionSize; x += 16) {
+      WideF of_rows(0.0f);
+      for (int row = y; row < y + kBlockSize; ++row) {
+        const WideF nearest = nearest_at_edge(at, x, row);
+        nearest.store(edges.pixel.data() + static_cast<std::size_t>(y0 + row) * static_cast<std::size_t>(edges.stride) +
+                      static_cast<std::size_t>(x0 + x));
+        of_rows = max(of_rows, nearest);
+      }
+      alignas(64) float column[16];
+      of_rows.store(column);
+      float* block = edges.block.data() +
+                     static_cast<std::size_t>((y0 + y) / kBlockSize) * static_cast<std::size_t>(edges.blocks_x) +
+                     static_cast<std::size_t>((x0 + x) / kBlockSize);
+      for (int k = 0; k < 4; ++k)
+        block[k] = max(max(column[4 * k], column[4 * k + 1]), max(column[4 * k + 2], column[4 * k + 3]));
+    }
+}
+
+}  // namespace shoal::inline SHOAL_ISA_NS
