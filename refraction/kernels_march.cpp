@@ -1,7 +1,7 @@
 // Narrow phase under waves (refraction/narrow/march_hit.h).
 #include "refraction/narrow/march_hit.h"
 
-#include "refraction/pixel_stage.h"
+#include "refraction/narrow/nearest_hit.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -56,8 +56,7 @@ class March {
 
   MarchedHit run(WideI own, WideM lanes) {
     const WideM met = find(own, lanes);
-    if (none(met)) return {found, met};
-    return {found, met & clear_way(met)};
+    return {found, found_t, any(met) ? met & clear_way(met) : met};
   }
 
  private:
@@ -85,7 +84,7 @@ class March {
       // A ray that leaves the scene where the layer shows nothing meets nothing.
       const WideM leaves = open & !drawn & within & (next == WideI(kNoId));
       const WideM done = (hits & within) | leaves;
-      take(id, at, done);
+      take(id, select(hits, t, WideF(kEndless)), at, done);
       met = met | done;
       open = open & within & !done;
       id = select(open, next, id);
@@ -96,15 +95,16 @@ class March {
       const ConfirmedHit hit = confirm_hit(g, shown, ray, id, x_px, y_px, beside);
       if (any(hit.held)) {
         const WideF t = triangle_distance(g, ray, hit.id, hit.held);
-        take(hit.id, layer_point(f, layer, ray, t), hit.held);
+        take(hit.id, t, layer_point(f, layer, ray, t), hit.held);
         met = met | hit.held;
       }
     }
     return met;
   }
 
-  void take(WideI id, const LayerPoint& at, WideM lanes) {
+  void take(WideI id, WideF t, const LayerPoint& at, WideM lanes) {
     found = select(lanes, id, found);
+    found_t = select(lanes, t, found_t);
     place.x = select(lanes, at.x, place.x);
     place.y = select(lanes, at.y, place.y);
     place.depth = select(lanes, at.depth, place.depth);
@@ -151,13 +151,14 @@ class March {
   const Ray<WideF>& ray;
   const WideF end;  // beyond the scene, along the rays
   WideI found = WideI(kNoId);
+  WideF found_t = WideF(kEndless);
   LayerPoint place{WideF(0.0f), WideF(0.0f), WideF(0.0f)};  // of what is met
 };
 
 }  // namespace
 
 MarchedHit march_hit(const FrameData& f, const Layer& layer, const Ray<WideF>& ray, WideI own, WideM lanes) {
-  if (none(lanes)) return {WideI(kNoId), lanes};
+  if (none(lanes)) return {WideI(kNoId), WideF(kEndless), lanes};
   return March(f, layer, ray).run(own, lanes);
 }
 

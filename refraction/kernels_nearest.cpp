@@ -15,8 +15,8 @@ class Search {
   Search(const FrameData& frame, const Ray<WideF>& rays, const RayDifferential<WideF>& differential_of)
       : f(frame), packet(rays), differential(differential_of) {}
 
-  std::int32_t nearest(int of_lane) {
-    lane = of_lane;
+  std::int32_t nearest(int of_lane, float known_t, std::int32_t known_id) {
+    lane = of_lane, t = known_t, id = known_id;
     const auto axis = [&](WideF from, WideF along, float& o, float& inverse_d) SHOAL_LAMBDA {
       o = extract(from, lane);
       const float d = extract(along, lane);
@@ -27,8 +27,6 @@ class Search {
     axis(packet.origin_world.z, packet.direction_world.z, origin.z, inverse.z);
     direction = {extract(packet.direction_world.x, lane), extract(packet.direction_world.y, lane),
                  extract(packet.direction_world.z, lane)};
-    id = kNoId;
-    t = 3e38f;
     waiting = 0;
     if (f.tree->nodes.size() == 0) return id;
     push(static_cast<std::int32_t>(f.tree->nodes.size()) - 1, 0.0f);
@@ -51,9 +49,8 @@ class Search {
 
   // The children that the ray passes, the nearest last.
   void open(const TriangleTree::Node& node) {
-    const auto side = [](float inv, const float* lo, const float* hi, bool first) SHOAL_LAMBDA {
-      return WideF::load((inv >= 0.0f) == first ? lo : hi);
-    };
+    const auto side = [](float inv, const float* lo, const float* hi, bool first)
+                          SHOAL_LAMBDA { return WideF::load((inv >= 0.0f) == first ? lo : hi); };
     const WideF ox(origin.x), oy(origin.y), oz(origin.z), ix(inverse.x), iy(inverse.y), iz(inverse.z);
     const WideF enter = max(max((side(inverse.x, node.min_x, node.max_x, true) - ox) * ix,
                                 (side(inverse.y, node.min_y, node.max_y, true) - oy) * iy),
@@ -79,16 +76,9 @@ class Search {
 
   void meet(const TriangleTree::Leaf& leaf) {
     const WideM there = lane_index() < WideI(leaf.triangle_count);
-    const WideI record = (WideI(leaf.first_triangle) + lane_index()) << 2;
-    const std::int32_t* vertex_of = reinterpret_cast<const std::int32_t*>(f.geometry.triangles);
-    const float* coordinate_of = reinterpret_cast<const float*>(f.geometry.vertices);
-    const auto corner = [&](int k) SHOAL_LAMBDA {
-      const WideI at = gather(vertex_of, record + WideI(k), there, WideI(0)) << 3;
-      return Vec3<WideF>{gather(coordinate_of, at, there, WideF(0.0f)),
-                         gather(coordinate_of, at + WideI(1), there, WideF(0.0f)),
-                         gather(coordinate_of, at + WideI(2), there, WideF(0.0f))};
-    };
-    const Vec3<WideF> p0 = corner(0), e1 = corner(1) - p0, e2 = corner(2) - p0;
+    const Vec3<WideF> p0 = {WideF::load(leaf.p0_x), WideF::load(leaf.p0_y), WideF::load(leaf.p0_z)};
+    const Vec3<WideF> e1 = {WideF::load(leaf.e1_x), WideF::load(leaf.e1_y), WideF::load(leaf.e1_z)};
+    const Vec3<WideF> e2 = {WideF::load(leaf.e2_x), WideF::load(leaf.e2_y), WideF::load(leaf.e2_z)};
     const Ray<WideF> ray = {broadcast<WideF>(origin), broadcast<WideF>(direction)};
     const TriangleTest test = test_triangle(ray, p0, e1, e2, there);
     WideM met = test.inside & (test.t <= WideF(t));
@@ -121,15 +111,17 @@ class Search {
 
 }  // namespace
 
-WideI nearest_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideM lanes) {
-  alignas(64) std::int32_t id[16];
-  WideI(kNoId).store(id);
+WideI nearest_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideF t,
+                   WideI id, WideM lanes) {
+  alignas(64) std::int32_t ids[16];
+  alignas(64) float ts[16];
+  id.store(ids), t.store(ts);
   Search search(f, ray, differential);
   for (std::uint32_t left = to_bits(lanes); left != 0; left &= left - 1) {
     const int lane = __builtin_ctz(left);
-    id[lane] = search.nearest(lane);
+    ids[lane] = search.nearest(lane, ts[lane], ids[lane]);
   }
-  return WideI::load(id);
+  return WideI::load(ids);
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -48,7 +48,9 @@ SHOAL_INLINE WaterRays<F> straight_rays(const WaterPass& water, Ray<F> view_ray,
 class NarrowPhase {
  public:
   NarrowPhase(FrameData& frame, const WaterPass& pass)
-      : f(frame), water(pass), refracted_(frame, frame.hits.refracted_id.data()),
+      : f(frame),
+        water(pass),
+        refracted_(frame, frame.hits.refracted_id.data()),
         mirrored_(frame, frame.hits.mirrored_id.data()) {}
 
   // Of the block's pixels at `here`, which show the water.
@@ -71,7 +73,7 @@ class NarrowPhase {
     if (bent) {
       const MarchedHit hit = march_hit(f, layer, ray, own, lanes);
       store_masked(ids.data() + block.offset, hit.id, here);
-      unsure.add(ray, differential, block.offset, lanes & !hit.sure);
+      unsure.add(ray, differential, hit.t, hit.id, block.offset, lanes & !hit.sure);
       return;
     }
     const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),

@@ -21,8 +21,10 @@ struct Layer {
 };
 
 struct MarchedHit {
-  WideI id;    // the triangle met, kNoId where the ray leaves the scene
-  WideM sure;  // else the layer does not tell: what the ray meets may be hidden in it, outside of it, or beside an edge
+  WideI id;    // a triangle that the ray meets, or kNoId
+  WideF t;     // where; beyond everything for kNoId
+  WideM sure;  // it is the first, or there is none; else the layer does not tell: something nearer may be hidden in it,
+               // outside of it, or beside an edge
 };
 
 //   ray    the true ray of each lane, from the water, unit direction

@@ -20,10 +20,10 @@ void extend(Box& box, const Box& by) {
 
 // Grown by more than the slack of the triangle test (confirm_hit.h) and the rounding of the box test: both are parts of
 // the coordinates' size.
-Box box_of(const Geometry& geometry, const TriangleTree::Leaf& leaf) {
+Box box_of(const Geometry& geometry, std::int32_t first, std::int32_t count) {
   Box box;
-  for (std::int32_t k = 0; k < leaf.triangle_count; ++k)
-    for (const std::uint32_t v : geometry.triangles[static_cast<std::size_t>(leaf.first_triangle + k)].vertex) {
+  for (std::int32_t k = first; k < first + count; ++k)
+    for (const std::uint32_t v : geometry.triangles[static_cast<std::size_t>(k)].vertex) {
       const Vec3f p = geometry.vertices[v].position_world;
       extend(box, {p, p});
     }
@@ -46,9 +46,22 @@ Box box_of(const TriangleTree::Node& node) {
   return box;
 }
 
+void fill(const Geometry& geometry, TriangleTree::Leaf& leaf) {
+  for (std::int32_t k = 0; k < leaf.triangle_count; ++k) {
+    const Geometry::TriangleRecord& r = geometry.triangles[static_cast<std::size_t>(leaf.first_triangle + k)];
+    const Vec3f p0 = geometry.vertices[r.vertex[0]].position_world;
+    const Vec3f e1 = geometry.vertices[r.vertex[1]].position_world - p0;
+    const Vec3f e2 = geometry.vertices[r.vertex[2]].position_world - p0;
+    leaf.p0_x[k] = p0.x, leaf.p0_y[k] = p0.y, leaf.p0_z[k] = p0.z;
+    leaf.e1_x[k] = e1.x, leaf.e1_y[k] = e1.y, leaf.e1_z[k] = e1.z;
+    leaf.e2_x[k] = e2.x, leaf.e2_y[k] = e2.y, leaf.e2_z[k] = e2.z;
+  }
+}
+
+// A run of triangles and where it is.
 struct Place {
   Vec3f middle;
-  std::int32_t leaf;
+  std::int32_t run;
 };
 float along(Vec3f v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
@@ -65,7 +78,7 @@ void arrange(Place* places, std::size_t count) {
   const std::size_t half = std::max(subtree, count / 2 / subtree * subtree);
   std::nth_element(places, places + half, places + count, [axis](const Place& a, const Place& b) {
     const float at_a = along(a.middle, axis), at_b = along(b.middle, axis);
-    return at_a != at_b ? at_a < at_b : a.leaf < b.leaf;
+    return at_a != at_b ? at_a < at_b : a.run < b.run;
   });
   arrange(places, half);
   arrange(places + half, count - half);
@@ -74,25 +87,36 @@ void arrange(Place* places, std::size_t count) {
 }  // namespace
 
 void TriangleTree::build(const Geometry& geometry, const Materials& materials) {
-  leaves.clear();
+  struct Run {
+    std::int32_t first, count;
+    bool one_sided, masked;
+  };
+  std::vector<Run> runs;
+  std::vector<Place> places;
   for (const Chunk& chunk : geometry.chunks) {
     const Material& material = materials.materials[chunk.material];
     if (material.alpha_mode == AlphaMode::kBlend) continue;
-    for (int k = 0; k < chunk.triangle_count; k += kWidth)
-      leaves.push() = {static_cast<std::int32_t>(chunk.first_triangle) + k, std::min(kWidth, chunk.triangle_count - k),
-                       !material.double_sided, material.alpha_mode == AlphaMode::kMask};
-  }
-  std::vector<Place> places;
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const Box box = box_of(geometry, leaves[i]);
-    places.push_back({(box.lo + box.hi) * 0.5f, static_cast<std::int32_t>(i)});
+    for (int k = 0; k < chunk.triangle_count; k += kWidth) {
+      runs.push_back({static_cast<std::int32_t>(chunk.first_triangle) + k, std::min(kWidth, chunk.triangle_count - k),
+                      !material.double_sided, material.alpha_mode == AlphaMode::kMask});
+      const Box box = box_of(geometry, runs.back().first, runs.back().count);
+      places.push_back({(box.lo + box.hi) * 0.5f, static_cast<std::int32_t>(runs.size() - 1)});
+    }
   }
   arrange(places.data(), places.size());
+  leaves.clear();
+  for (const Place& place : places) {
+    const Run& run = runs[static_cast<std::size_t>(place.run)];
+    Leaf& leaf = leaves.push();
+    leaf = Leaf{};
+    leaf.first_triangle = run.first, leaf.triangle_count = run.count;
+    leaf.one_sided = run.one_sided, leaf.masked = run.masked;
+  }
 
   // Sixteen at a time, level by level, up to one root.
   nodes.clear();
   std::vector<std::int32_t> level;
-  for (const Place& place : places) level.push_back(~place.leaf);
+  for (std::size_t i = 0; i < leaves.size(); ++i) level.push_back(~static_cast<std::int32_t>(i));
   while (level.size() > 1 || (level.size() == 1 && level[0] < 0)) {
     std::vector<std::int32_t> above;
     for (std::size_t i = 0; i < level.size(); i += kWidth) {
@@ -110,13 +134,15 @@ void TriangleTree::build(const Geometry& geometry, const Materials& materials) {
 }
 
 void TriangleTree::refit(const Geometry& geometry) {
+  for (std::size_t i = 0; i < leaves.size(); ++i) fill(geometry, leaves[i]);
   // Children come before their parents. Empty places keep their inverted boxes.
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     Node& node = nodes[n];
     for (int k = 0; k < kWidth; ++k) {
       const std::int32_t child = node.child[k];
       if (child < 0) {
-        put(node, k, box_of(geometry, leaves[static_cast<std::size_t>(~child)]));
+        const Leaf& leaf = leaves[static_cast<std::size_t>(~child)];
+        put(node, k, box_of(geometry, leaf.first_triangle, leaf.triangle_count));
       } else if (child != kNone) {
         put(node, k, box_of(nodes[static_cast<std::size_t>(child)]));
       }
