@@ -7,7 +7,9 @@
 //     static BroadPhase map(const WaterBody&, const View&);         // as of a method that shades after
 //     template <class F> static WaterRays<F> rays(const WaterPass&, Ray<F> view_ray, RayDifferential<F>);
 //     static LayerPlace look(const LookUp&);                        // where each water pixel looks in the layer
-//     struct Map { ... };                                           // if its map is no BroadPhase: MappedProgram's
+//     // If its map is no BroadPhase: one as MappedProgram's, and the option that has edges split.
+//     static MyMap own_map(const FrameData&, const WaterPass&);
+//     static constexpr int kSplitsEdges = kTessellate;
 //     // If the surface is to mirror something else than its true ray shows:
 //     static void mirror(const FrameData&, const WaterPass&, const Block&, WaterRays<WideF>&);
 //   };
@@ -20,6 +22,13 @@
 #include "refraction/methods/method.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
+
+// The option of a method with a map of its own, whose source may leave edges straight.
+inline constexpr MethodOption kTessellateOption{"tessellate", "true", "split edges that the broad phase bends",
+                                                MethodOption::Kind::kTruth, 0, 1};
+
+template <class M>
+concept HasOwnMap = requires(const FrameData& f, const WaterPass& water) { M::own_map(f, water); };
 
 // What a narrow phase may know of sixteen pixels.
 struct LookUp {
@@ -88,19 +97,17 @@ struct ShadeBeforeStages {
     });
   }
 
-  static void refracted_front_end(FrameData& f, const WaterPass& water, std::size_t item) requires requires {
-    typename M::Map;
+  template <class Map>
+  static MappedProgram<Map> program(const FrameData& f, const WaterPass& water, const Map& map) {
+    return {{water, f.view}, map, f.method_option[M::kSplitsEdges] != 0.0f};
   }
-  {
-    const typename M::Map map(f, water);
-    opaque_item(f, MappedProgram<typename M::Map>{{water, f.view}, map, map.splits()}, water.pass, item);
+  static void refracted_front_end(FrameData& f, const WaterPass& water, std::size_t item) requires HasOwnMap<M> {
+    const auto map = M::own_map(f, water);
+    opaque_item(f, program(f, water, map), water.pass, item);
   }
-  static void blended_front_end(FrameData& f, const WaterPass& water, std::size_t item) requires requires {
-    typename M::Map;
-  }
-  {
-    const typename M::Map map(f, water);
-    blended_item(f, MappedProgram<typename M::Map>{{water, f.view}, map, map.splits()}, water.pass, true, item);
+  static void blended_front_end(FrameData& f, const WaterPass& water, std::size_t item) requires HasOwnMap<M> {
+    const auto map = M::own_map(f, water);
+    blended_item(f, program(f, water, map), water.pass, true, item);
   }
 
   static constexpr MethodKernels kernels() {
@@ -108,7 +115,7 @@ struct ShadeBeforeStages {
     k.narrow = &narrow;
     k.light_layer = &light;
     k.whole_scene = M::kWholeScene;
-    if constexpr (requires { typename M::Map; }) {
+    if constexpr (HasOwnMap<M>) {
       k.refracted_front_end = &refracted_front_end;
       k.blended_front_end = &blended_front_end;
     }

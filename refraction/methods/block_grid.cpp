@@ -150,14 +150,10 @@ void prepare(FrameData& f, ThreadPool&, const Camera*) {
 }  // namespace
 
 Method block_grid() {
-  MethodKernels kernels = Stages::kernels();
-  kernels.refracted_alpha = nullptr;
-  kernels.narrow = &narrow;
-  kernels.prepare = &prepare;
   return {"block-grid",
           "rays at block corners, the floor's coordinates interpolated between; for water over a level floor",
           "Champandard 1999",
-          kernels,
+          Stages::kernels_without_layer(&narrow, &prepare),
           kOptions,
           kOptionCount};
 }

@@ -53,14 +53,10 @@ void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
 }  // namespace
 
 Method distance_field() {
-  MethodKernels kernels = Stages::kernels();
-  kernels.refracted_alpha = nullptr;
-  kernels.narrow = &narrow;
-  kernels.prepare = &prepare;
   return {"distance-field",
           "the true refracted ray, sphere-traced through a voxel distance field",
           "Rodgman and Chen 2001, as Liu et al. 2020 [13]",
-          kernels,
+          Stages::kernels_without_layer(&narrow, &prepare),
           kOptions,
           kOptionCount};
 }

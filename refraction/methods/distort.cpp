@@ -16,17 +16,8 @@ constexpr MethodOption kOptions[kOptionCount] = {
     {"reflection", "true", "the mirrored picture is pushed too", MethodOption::Kind::kTruth, 0, 1},
 };
 
-struct Distort {
-  static constexpr bool kFollowsWaves = true, kShadesBefore = true, kWholeScene = true;
-  // Index 1 makes the broad phase the identity.
-  static BroadPhase map(const WaterBody& body, const View& view) {
-    return make_broad_phase(body.origin, body.normal, 1.0f, view);
-  }
-
-  template <class F>
-  SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
-    return straight_rays(water, view_ray, differential);
-  }
+struct Distort : StraightRays {
+  static constexpr bool kShadesBefore = true, kWholeScene = true;
 
   static LayerPlace pushed(const FrameData& f, const Block& block, const ExactRay<WideF>& at) {
     const Vec3<WideF> n = at.plane_normal, tangential = at.normal - n * dot(at.normal, n);

@@ -20,32 +20,22 @@ namespace {
 enum Option { kAsPrinted, kTessellate, kOptionCount };
 constexpr MethodOption kOptions[kOptionCount] = {
     {"as-printed", "false", "the algorithms to the letter, misprints included", MethodOption::Kind::kTruth, 0, 1},
-    {"tessellate", "true", "split edges that the broad phase bends", MethodOption::Kind::kTruth, 0, 1},
+    kTessellateOption,
 };
 
-struct OptionedMap : PathLengthMap {
-  OptionedMap(const FrameData& f, const WaterPass& water)
-      : PathLengthMap(water.optics, f.method_option[kAsPrinted] != 0.0f),
-        tessellates(f.method_option[kTessellate] != 0.0f) {}
-  bool tessellates;
-  bool splits() const { return tessellates; }
-};
+struct Liu2020 : TrueRays {
+  static constexpr bool kShadesBefore = true, kWholeScene = false;
+  static constexpr int kSplitsEdges = kTessellate;
 
-struct Liu2020 {
-  static constexpr bool kFollowsWaves = true, kShadesBefore = true, kWholeScene = false;
-  using Map = OptionedMap;
-  static BroadPhase map(const WaterBody& body, const View& view) { return make_broad_phase(body, view); }
-
-  template <class F>
-  SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
-    return bent_rays(water, view_ray, differential);
+  static PathLengthMap own_map(const FrameData& f, const WaterPass& water) {
+    return {water.optics, f.method_option[kAsPrinted] != 0.0f};
   }
 
   static LayerPlace look(const LookUp& l) {
     if (l.f.method_option[kAsPrinted] != 0.0f) return printed_look(l);
     const Ray<WideF> ray{l.at.crossing_world, l.at.refracted};
     const Vec3<WideF> met = ray.origin_world + ray.direction_world * plane_look(l, ray);
-    return project_place(l.f.view, OptionedMap(l.f, l.water).position(met));
+    return project_place(l.f.view, own_map(l.f, l.water).position(met));
   }
 
   // Algorithm 2 to the letter: the view ray, turned as the waves turn the normal (two mirrors in a row), meets the

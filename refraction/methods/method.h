@@ -87,6 +87,20 @@ class NarrowPhase {
   UnsureRays refracted_, mirrored_;
 };
 
+// The map and the rays without refraction: geometry where it is, each ray straight on.
+struct StraightRays {
+  static constexpr bool kFollowsWaves = false;
+  // Index 1 makes the broad phase the identity.
+  static BroadPhase map(const WaterBody& body, const View& view) {
+    return make_broad_phase(body.origin, body.normal, 1.0f, view);
+  }
+
+  template <class F>
+  SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
+    return straight_rays(water, view_ray, differential);
+  }
+};
+
 // The map and the rays of flat water's physics: geometry where the plane shows it, each ray as the surface bends it.
 struct TrueRays {
   static constexpr bool kFollowsWaves = true;
@@ -171,6 +185,16 @@ struct MethodStages {
   static void shade(FrameData& f, std::size_t region) { shade_region<M>(f, region); }
 
   static constexpr MethodKernels kernels() { return {&M::map, &refracted_alpha, &narrow, &blend_water, &shade}; }
+
+  // Of a method that finds by itself what its rays meet, in what it has prepared: no refracted layer is drawn.
+  static constexpr MethodKernels kernels_without_layer(decltype(MethodKernels::narrow) finds,
+                                                       decltype(MethodKernels::prepare) prepares) {
+    MethodKernels k = kernels();
+    k.refracted_alpha = nullptr;
+    k.narrow = finds;
+    k.prepare = prepares;
+    return k;
+  }
 };
 
 }  // namespace shoal::inline SHOAL_ISA_NS

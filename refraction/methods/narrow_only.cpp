@@ -9,17 +9,8 @@
 namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
-struct NarrowOnly {
-  static constexpr bool kFollowsWaves = true, kShadesBefore = true, kWholeScene = true;
-  // Index 1 makes the broad phase the identity.
-  static BroadPhase map(const WaterBody& body, const View& view) {
-    return make_broad_phase(body.origin, body.normal, 1.0f, view);
-  }
-
-  template <class F>
-  SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
-    return straight_rays(water, view_ray, differential);
-  }
+struct NarrowOnly : StraightRays {
+  static constexpr bool kShadesBefore = true, kWholeScene = true;
 
   static LayerPlace look(const LookUp& l) {
     const Ray<WideF> ray{l.at.crossing_world, l.at.refracted};

@@ -6,18 +6,7 @@
 namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
-struct None {
-  static constexpr bool kFollowsWaves = false;
-  // Index 1 makes the broad phase the identity.
-  static BroadPhase map(const WaterBody& body, const View& view) {
-    return make_broad_phase(body.origin, body.normal, 1.0f, view);
-  }
-
-  template <class F>
-  SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
-    return straight_rays(water, view_ray, differential);
-  }
-};
+struct None : StraightRays {};
 }  // namespace
 
 Method none() {

@@ -19,17 +19,8 @@ constexpr MethodOption kOptions[kOptionCount] = {
     {"max-distance", "100", "metres that the refracted ray goes", MethodOption::Kind::kReal, 0.01f, 1e6f},
 };
 
-struct ScreenSpace {
-  static constexpr bool kFollowsWaves = true, kShadesBefore = true, kWholeScene = true;
-  // Index 1 makes the broad phase the identity.
-  static BroadPhase map(const WaterBody& body, const View& view) {
-    return make_broad_phase(body.origin, body.normal, 1.0f, view);
-  }
-
-  template <class F>
-  SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
-    return straight_rays(water, view_ray, differential);
-  }
+struct ScreenSpace : StraightRays {
+  static constexpr bool kShadesBefore = true, kWholeScene = true;
 
   static LayerPlace look(const LookUp& l) {
     alignas(64) static constexpr float kBayer[16] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};

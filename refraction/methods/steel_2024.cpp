@@ -21,28 +21,18 @@ constexpr MethodOption kOptions[kOptionCount] = {
     {"steps", "4", "of the fixed point", MethodOption::Kind::kWhole, 1, 64},
     {"pom", "false", "parallax occlusion mapping: march to what the bent ray meets", MethodOption::Kind::kTruth, 0, 1},
     {"pom-steps", "128", "pixels that the march may go", MethodOption::Kind::kWhole, 1, 4096},
-    {"tessellate", "true", "split edges that the broad phase bends", MethodOption::Kind::kTruth, 0, 1},
+    kTessellateOption,
 };
 
 // Beyond everything: where nothing is drawn, the direction alone counts.
 constexpr float kOpen_m = 1e4f;
 
-struct OptionedMap : FixedPointMap {
-  OptionedMap(const FrameData& f, const WaterPass& water)
-      : FixedPointMap(water.optics, static_cast<int>(f.method_option[kSteps])),
-        tessellates(f.method_option[kTessellate] != 0.0f) {}
-  bool tessellates;
-  bool splits() const { return tessellates; }
-};
+struct Steel2024 : TrueRays {
+  static constexpr bool kShadesBefore = true, kWholeScene = false;
+  static constexpr int kSplitsEdges = kTessellate;
 
-struct Steel2024 {
-  static constexpr bool kFollowsWaves = true, kShadesBefore = true, kWholeScene = false;
-  using Map = OptionedMap;
-  static BroadPhase map(const WaterBody& body, const View& view) { return make_broad_phase(body, view); }
-
-  template <class F>
-  SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
-    return bent_rays(water, view_ray, differential);
+  static FixedPointMap own_map(const FrameData& f, const WaterPass& water) {
+    return {water.optics, static_cast<int>(f.method_option[kSteps])};
   }
 
   static LayerPlace look(const LookUp& l) {

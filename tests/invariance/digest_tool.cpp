@@ -5,8 +5,9 @@
 //               [--isa NAME] [--threads N] [--tile N]
 //   digest_tool --list-isas
 //
-// Without --scene, --camera or --method: all of them, but for methods other than the default only in `box`. A line:
-// scene camera method stage digest.
+// Without --scene, --camera or --method: `pool`, `box` and `pond` by all of them, but for methods other than the
+// default `box` alone and the first camera of `pond`, whose water moves and has a shore. A line: scene camera method
+// stage digest.
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
@@ -26,12 +27,12 @@
 namespace {
 
 struct Arguments {
-  std::vector<std::string> scenes{"pool", "box"};
+  std::vector<std::string> scenes{"pool", "box", "pond"};
   std::uint64_t triangles = 2000;
   std::optional<std::size_t> camera;
   std::vector<std::string> methods;
   double time_s = 0.25;
-  bool list_isas = false;
+  bool list_isas = false, sized = false;
   shoal::FrameSettings settings;
 };
 
@@ -64,6 +65,7 @@ void parse_option(std::string_view option, std::string_view value, Arguments& ar
     arguments.methods = {std::string(value)};
   } else if (option == "--size") {
     parse_size(value, settings);
+    arguments.sized = true;
   } else if (option == "--spp") {
     settings.spp = parse_number<int>(option, value);
   } else if (option == "--time") {
@@ -133,11 +135,15 @@ void run(const Arguments& arguments) {
   for (const std::string& scene_name : arguments.scenes) {
     const shoal::RenderScene scene = shoal::build_render_scene(find_scene(scene_name).make(arguments.triangles));
     for (const std::string& method : arguments.methods) {
-      // All methods on the small scene; the others show the default one what it does not hold.
-      const bool named = arguments.methods.size() == 1;
-      if (!named && scene_name != "box" && method != arguments.methods.front()) continue;
+      // All methods on the small scene, and a look at water that moves; the others show the default one what they hold.
+      const bool all_cameras =
+          arguments.methods.size() == 1 || scene_name == "box" || method == arguments.methods.front();
+      if (!all_cameras && scene_name != "pond") continue;
       shoal::FrameSettings settings = arguments.settings;
       settings.method = method;
+      if (scene_name == "pond" && !arguments.sized) settings.width_px = 144, settings.height_px = 80;
+      // As much as a picture this small shows, and quick to build where nothing is optimized.
+      if (method == "distance-field") settings.method_options["resolution"] = "32";
       std::unique_ptr<shoal::Renderer> made;
       try {
         made = std::make_unique<shoal::Renderer>(scene, settings);
@@ -147,7 +153,7 @@ void run(const Arguments& arguments) {
       }
       shoal::Renderer& renderer = *made;
       for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-        if (arguments.camera && *arguments.camera != i) continue;
+        if (arguments.camera ? *arguments.camera != i : i > 0 && !all_cameras) continue;
         shoal::Frame frame;
         renderer.render(scene.cameras[i].camera, arguments.time_s, frame);
         print_frame(scene_name + " " + scene.cameras[i].name + " " + method, frame);
