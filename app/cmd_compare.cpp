@@ -111,6 +111,11 @@ Json method_json(const ReportMethod& method) {
   json["hit_error_m"] = percentiles_json(method.metrics.hits.error_m);
   json["wrong_object"] = json_double(method.metrics.hits.wrong_object);
   json["wrong_surface"] = json_double(method.metrics.hits.wrong_surface);
+  json["spots"] = Json::array();
+  for (const Spot& spot : method.metrics.spots) {
+    json["spots"].push_back(
+        {{"x", spot.x}, {"y", spot.y}, {"size_px", spot.size_px}, {"flip_max", json_float(spot.greatest)}});
+  }
   return json;
 }
 

@@ -13,20 +13,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The camera turned left about world up (+y) by k tenths of a degree, from where it stands.
-Camera turned_left(const Camera& camera, std::int64_t k) {
-  if (k == 0) return camera;
-  constexpr float kTenthDegree = 0.00174532925f;
-  const float angle = static_cast<float>(k % 3600) * kTenthDegree;
-  const float s = det_sin(angle), c = det_cos(angle);
-  const auto turn = [&](Vec3f v) { return Vec3f{c * v.x + s * v.z, v.y, c * v.z - s * v.x}; };
-  Camera turned = camera;
-  turned.right_world = turn(camera.right_world);
-  turned.up_world = turn(camera.up_world);
-  turned.forward_world = turn(camera.forward_world);
-  return turned;
-}
-
 Camera at_angle(const Camera& camera, const WaterBody& body, double degrees) {
   const Vec3f n = body.normal, eye = camera.position_world, forward = camera.forward_world;
   const float height = dot(eye - body.origin, n), along = dot(forward, n);

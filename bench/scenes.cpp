@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "bench/harness.h"
-#include "core/math.h"
 
 namespace shoal::bench {
 
@@ -23,18 +22,6 @@ const RenderScene& built_in_scene(const std::string& name, std::uint64_t triangl
 const RenderScene& pool_scene(std::uint64_t triangles) { return built_in_scene("pool", triangles); }
 
 const Camera& first_camera(const RenderScene& scene) { return scene.cameras.front().camera; }
-
-Camera turned_left(const Camera& camera, std::int64_t k) {
-  constexpr float kTenthDegree = 0.00174532925f;
-  const float angle = static_cast<float>(k % 3600) * kTenthDegree;
-  const float s = det_sin(angle), c = det_cos(angle);
-  const auto turn = [&](Vec3f v) { return Vec3f{c * v.x + s * v.z, v.y, c * v.z - s * v.x}; };
-  Camera turned = camera;
-  turned.right_world = turn(camera.right_world);
-  turned.up_world = turn(camera.up_world);
-  turned.forward_world = turn(camera.forward_world);
-  return turned;
-}
 
 namespace {
 

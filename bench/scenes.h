@@ -21,9 +21,6 @@ const RenderScene& built_in_scene(const std::string& name, std::uint64_t triangl
 const RenderScene& pool_scene(std::uint64_t triangles);
 const Camera& first_camera(const RenderScene& scene);
 
-// The camera of frame k of `shoal render --repeat`: turned left k tenths of a degree about world up.
-Camera turned_left(const Camera& camera, std::int64_t k);
-
 // Two textured triangles that fill the frame. A texel is 2^-0.5 px: level of detail 0.5.
 //   texture_size  texels a side
 RenderScene make_quad(int texture_size);

@@ -32,6 +32,7 @@ FrameMetrics measure_frame(const RenderScene& scene, const Camera& camera, const
   const LinearPicture a = linear_from_srgb8(truth.width_px, truth.height_px, truth.srgb8.data());
   const LinearPicture b = linear_from_srgb8(method.width_px, method.height_px, method.srgb8.data());
   metrics.flip = ldr_flip(a, b, settings.flip, pool);
+  metrics.spots = largest_spots(metrics.flip, truth.width_px, kSpotFlip, kMostSpots);
   metrics.water = measure_region(truth, method, metrics.flip, metrics.hits.water);
   metrics.frame = measure_region(truth, method, metrics.flip, {});
   if (settings.yee) {

@@ -7,6 +7,7 @@
 
 #include "compare/flip.h"
 #include "compare/hits.h"
+#include "compare/spots.h"
 
 namespace shoal {
 
@@ -21,6 +22,7 @@ struct FrameMetrics {
   PictureMetrics water, frame;
   HitComparison hits;
   std::vector<float> flip;  // of each pixel
+  std::vector<Spot> spots;  // of the FLIP map, the largest first
 };
 
 struct MetricSettings {

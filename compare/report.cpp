@@ -191,6 +191,23 @@ std::string legends() {
          "both show sky or a mirror image &nbsp; " + box(kNoWaterColor) + "no water</p></div></div>\n";
 }
 
+// Places and sizes; the script draws them, from the pictures that are there.
+std::string spots(const ReportMethod& method) {
+  if (method.metrics.spots.empty()) return "";
+  std::string out = "<details class=\"spots\" data-method=\"" + html_escape(method.name) +
+                    "\"><summary>Its largest differences, close up (" + std::to_string(method.metrics.spots.size()) +
+                    ")</summary>\n<p class=\"soft\">Touching pixels with a FLIP of " +
+                    short_number(static_cast<double>(kSpotFlip)) +
+                    " or more. Left the reference, right this method.</p>\n<div class=\"closeups\">\n";
+  for (const Spot& spot : method.metrics.spots) {
+    out += "<figure data-x=\"" + std::to_string(spot.x) + "\" data-y=\"" + std::to_string(spot.y) +
+           "\"><figcaption>at " + std::to_string(spot.x) + ", " + std::to_string(spot.y) + ": " +
+           std::to_string(spot.size_px) + " px, FLIP up to " + short_number(static_cast<double>(spot.greatest)) +
+           "</figcaption></figure>\n";
+  }
+  return out + "</div></details>\n";
+}
+
 std::string gallery(const Report& report) {
   std::string out =
       "<h2>Pictures and error maps</h2>\n" + legends() + "<h3>" + code(report.reference.name) +
@@ -207,7 +224,7 @@ std::string gallery(const Report& report) {
            " over the frame</figcaption></figure>\n<figure>" +
            image(report, m.name + ".hit", m.name + ": hit error map", m.hit_png) +
            "<figcaption>Hit error map: median " + short_number(m.metrics.hits.error_px.median) +
-           " px</figcaption></figure>\n</div>\n";
+           " px</figcaption></figure>\n</div>\n" + spots(m);
   }
   return out;
 }

@@ -34,6 +34,24 @@
     selects[side].addEventListener("change", () => show(side));
     show(side);
   }
+  // The largest differences: 32 x 32 pixels round each, of the reference and of the method, when they are asked for.
+  const kSide = 32;
+  for (const details of document.querySelectorAll("details.spots")) {
+    details.addEventListener("toggle", () => {
+      for (const figure of details.querySelectorAll("figure:not(:has(canvas))")) {
+        const pictures = ["reference", details.dataset.method].map((id) => document.getElementById(id));
+        const canvases = pictures.map((picture) => {
+          const from = (at, size) => Math.max(0, Math.min(Number(at) - kSide / 2, size - kSide));
+          const canvas = document.createElement("canvas");
+          canvas.width = canvas.height = kSide;
+          const x = from(figure.dataset.x, picture.naturalWidth), y = from(figure.dataset.y, picture.naturalHeight);
+          canvas.getContext("2d").drawImage(picture, x, y, kSide, kSide, 0, 0, kSide, kSide);
+          return canvas;
+        });
+        figure.prepend(...canvases);
+      }
+    });
+  }
   window.addEventListener("hashchange", follow);
   move();
   follow();

@@ -1,6 +1,21 @@
 #include "raster/camera.h"
 
+#include "core/math.h"
+
 namespace shoal {
+
+Camera turned_left(const Camera& camera, std::int64_t k) {
+  if (k == 0) return camera;
+  constexpr float kTenthDegree = 0.00174532925f;
+  const float angle = static_cast<float>(k % 3600) * kTenthDegree;
+  const float s = det_sin(angle), c = det_cos(angle);
+  const auto turn = [&](Vec3f v) { return Vec3f{c * v.x + s * v.z, v.y, c * v.z - s * v.x}; };
+  Camera turned = camera;
+  turned.right_world = turn(camera.right_world);
+  turned.up_world = turn(camera.up_world);
+  turned.forward_world = turn(camera.forward_world);
+  return turned;
+}
 
 View make_view(const Camera& camera, int width_px, int height_px, Vec2f sample_px) {
   View v;

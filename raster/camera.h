@@ -4,6 +4,8 @@
 // (0.5, 0.5) px; depth = near / w for perspective (infinite far), linear for orthographic; greater is nearer.
 #pragma once
 
+#include <cstdint>
+
 #include "core/vec.h"
 #include "core/wide/isa_select.h"
 
@@ -20,6 +22,10 @@ struct Camera {
   float near_m = 0.05f;
   float far_m = 1000.0f;  // orthographic only
 };
+
+// The camera of frame k of a repeated run: turned left about world up (+y) by k tenths of a degree, from where it
+// stands.
+Camera turned_left(const Camera& camera, std::int64_t k);
 
 // A camera with a frame: everything that a vertex or a pixel needs, computed once (raster/camera.cpp).
 struct View {

@@ -19,6 +19,7 @@
 #include "refraction/floor.h"
 #include "refraction/narrow/layer_edges.h"
 #include "refraction/narrow/triangle_tree.h"
+#include "refraction/pass_bins.h"
 #include "refraction/renderer.h"
 #include "refraction/shadow_map.h"
 #include "refraction/trace/ray_queries.h"
@@ -80,15 +81,6 @@ struct LitPoints {
     outside.resize(g.pixel_slots());
   }
 };
-
-// Bins of one pass: one item a run of chunks.
-struct PassBins {
-  std::vector<BinItem> items;
-  std::uint32_t chunks_per_item = 1;
-  std::uint32_t chunk_count = 0;
-};
-// Items of about equal work, enough of them for any number of threads; results do not depend on their size.
-PassBins make_bins(std::size_t chunk_count);  // refraction/renderer.cpp
 
 // What is seen through, laid over what is behind it: colour = light + keep * behind, at each sample of a block that has
 // any; the other blocks' planes hold nothing.

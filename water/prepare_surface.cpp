@@ -36,7 +36,7 @@ WaterSurface at_time(const std::vector<SurfaceModel::Part>& parts, const PlaneEx
 double rms_slope(const std::vector<SurfaceModel::Part>& parts, const PlaneExtent& extent) {
   const SurfaceModel::Part* fading = nullptr;
   for (const auto& part : parts) {
-    if (part.settings.kind == SurfaceKind::kRipples) fading = &part;
+    if (part.settings.kind == SurfaceKind::kRipples || part.settings.kind == SurfaceKind::kRippleFilter) fading = &part;
   }
   if (fading == nullptr) {
     const WaterSurface surface = at_time(parts, extent, 0.0);
@@ -52,7 +52,9 @@ double rms_slope(const std::vector<SurfaceModel::Part>& parts, const PlaneExtent
     last = i == 0 ? t : std::max(last, t);
   }
   const double speed = static_cast<double>(s.speed) > 0 ? static_cast<double>(s.speed) : 1.0;
-  const double span = last - first + surface_parts::ripple_life_s(s);
+  const double life =
+      s.kind == SurfaceKind::kRipples ? surface_parts::ripple_life_s(s) : static_cast<double>(s.lifetime_s);
+  const double span = last - first + life;
   double sum = 0;
   for (int i = 0; i < kRippleTimes; ++i) {
     const double time_s = (first + span * (i + 0.5) / kRippleTimes) / speed;
@@ -90,8 +92,10 @@ std::vector<SurfaceModel::Part> flattened(const SurfaceSettings& settings, const
     if (settings.slope) scale_to_slope(parts, measured_extent(extent, settings), *settings.slope);
     return parts;
   }
-  parts.push_back({settings, settings.amplitude_m.value_or(1.0f), {}});
+  parts.push_back({settings, settings.amplitude_m.value_or(1.0f), {}, nullptr});
   if (settings.kind == SurfaceKind::kSpectrum) parts[0].waves = surface_parts::spectrum_waves(settings);
+  if (settings.kind == SurfaceKind::kRippleFilter)
+    parts[0].filter = std::make_shared<RippleFilter>(settings, measured_extent(extent, settings));
   if (settings.slope) {
     // Near the answer already: trochoids fold when they are too high.
     if (settings.kind == SurfaceKind::kGerstner) parts[0].amplitude_m = 0.1f * *settings.slope * *settings.wavelength_m;
@@ -115,6 +119,9 @@ WaterSurface at_time(const std::vector<SurfaceModel::Part>& parts, const PlaneEx
         break;
       case SurfaceKind::kRipples:
         surface_parts::add_ripples(request, surface);
+        break;
+      case SurfaceKind::kRippleFilter:
+        part.filter->add_to(request.time_s, request.amplitude_m, surface);
         break;
       case SurfaceKind::kGerstner:
         surface_parts::add_trochoids(request, surface);

@@ -25,6 +25,7 @@ const std::vector<SurfaceKindInfo>& surface_kinds() {
       {SurfaceKind::kPerlin, "perlin", "fractal gradient noise (Li et al.)"},
       {SurfaceKind::kGradientWaves, "gradient-waves", "two drifting layers of gradient noise (Steel 2024)"},
       {SurfaceKind::kRipples, "ripples", "rings of falling drops (Champandard 1999)"},
+      {SurfaceKind::kRippleFilter, "ripple-filter", "drops in a basin by the blur-sharpen filter (Champandard 1999)"},
       {SurfaceKind::kGerstner, "gerstner", "trochoidal waves as a height field (Gerstner 1809)"},
       {SurfaceKind::kSpectrum, "spectrum", "a wind sea by Fourier transform, without chop (Tessendorf 2001)"},
   };

@@ -17,6 +17,8 @@ Defaults defaults_of(SurfaceKind kind) {
       return {0.035f, 0.364f, 2};
     case SurfaceKind::kRipples:
       return {0.05f, 0.3f, 1};
+    case SurfaceKind::kRippleFilter:
+      return {0.05f, 0.3f, 1};
     case SurfaceKind::kGerstner:
       return {0.1f, 2.0f, 4};
     case SurfaceKind::kSpectrum:

@@ -12,6 +12,7 @@ enum class SurfaceKind : std::uint8_t {
   kPerlin,
   kGradientWaves,
   kRipples,
+  kRippleFilter,
   kGerstner,
   kSpectrum,
   kSum,
@@ -41,14 +42,15 @@ struct SurfaceSettings {
   float speed = 1.0f;                 // factor on time; 0 stands still
   std::uint32_t seed = 1;
   NoiseFade fade = NoiseFade::kQuintic;
-  // ripples
-  int sources = 4;                // drops that fall again and again at places by seed, where `drops` is empty
+  // ripples, ripple-filter
+  int sources = 4;                // drops in a lifetime, at places by seed, where `drops` is empty
   std::vector<RippleDrop> drops;  // each falls once
   RippleFalloff falloff = RippleFalloff::kLinear;
   std::optional<float> reach_m;  // > 0: linear: where a ripple ends; exponential: where 1/e of it is left
-  float lifetime_s = 4.0f;       // > 0: the same in time
-  int grid = 0;  // ripples: 2 to 1024 points a side to sample them on, 0: exact; spectrum: 16 to 512, a power
-                 // of two
+  float lifetime_s = 4.0f;       // > 0: the same in time; ripple-filter: in which 1/e of a height is left
+  // Points a side. ripples: 2 to 1024 to sample them on, 0: exact; spectrum: 16 to 512, a power of two; ripple-filter:
+  // 16 to 1024 along the longer side, 0: eight a wavelength, at most 512.
+  int grid = 0;
   // gerstner
   float choppiness = 1.0f;  // 0 (plain sines) to 1 (trochoids)
   float direction_deg = 0;  // where the longest wave goes, from +x to +z

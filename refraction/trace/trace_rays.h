@@ -8,6 +8,10 @@ namespace shoal::inline SHOAL_ISA_NS {
 // The triangle that each ray meets first between t_near and t_far (in the direction's lengths); kNoId where there is
 // none.
 //   differential  of the rays: what cut-out textures are filtered by
+// Source: Wald et al. 2014 (Embree), robust mode. Differs: Embree tells the triangle alone; the point is
+// ray_triangle's. Error: a ray within rounding of an edge may be given the neighbour, on another ISA another one
+// (DESIGN 3); elsewhere
+//        the triangle is that of rays in double (tests/refraction/test_ray_traced.cpp).
 WideI first_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, float t_near,
                  WideF t_far, WideM lanes);
 
@@ -15,6 +19,8 @@ WideI first_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferentia
 // the plane, then on in the air.
 //   position, facet  world; of the triangle, unit, either side
 //   water            the body that the points lie in, or null
+// Returns the lanes whose way is blocked. The water's plane bends the way, its waves do not (docs/decisions/0008).
+// Error: none but within 1 mm of a shadow's edge, against rays in double (tests/refraction/test_shadow.cpp).
 WideM sun_blocked(const FrameData& f, const WaterPass* water, Vec3<WideF> position, Vec3<WideF> facet, WideM lanes);
 
 // The light of blended triangles that rays pass, the nearer ones' share off, and what they let through.
@@ -41,7 +47,7 @@ SHOAL_INLINE void fill_packet(RayPacket& packet, const Ray<WideF>& ray, float t_
   t_far.store(packet.t_far);
 }
 
-// Adds to the frame's counts, from any thread.
+// Adds to the frame's counts, from any thread. Exact (tests/refraction/test_ray_traced.cpp).
 void count_rays(const FrameData& f, RayCounts::Kind kind, std::uint64_t rays);
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -13,7 +13,7 @@ two-phase.exr two-phase.flip.png two-phase.hit.png two-phase.png" "$(ls out | pa
 no_leftovers "compare"
 equals "metrics.json's keys" "scene size reference settings water_pixels methods" "$(keys_of out/metrics.json)"
 keys_in_order() { grep -oE "^$1\"[^\"]+\"" out/metrics.json | tr -d ' "' | paste -sd ' '; }
-method_keys="name ms water frame hit_error_px hit_error_m wrong_object wrong_surface"
+method_keys="name ms water frame hit_error_px hit_error_m wrong_object wrong_surface spots"
 equals "a method's keys" "$method_keys $method_keys" "$(keys_in_order '      ')"
 inner="median min n flip psnr_db yee_failed flip psnr_db yee_failed median p95 p99 median p95 p99"
 equals "the keys below" "$inner $inner" "$(keys_in_order '        ')"
@@ -36,6 +36,11 @@ equals "no refraction is wrong" "yes" "$(json 'my $m = $j->{methods}[0];
   $m->{hit_error_px}{p99} >= $m->{hit_error_px}{p95} && $m->{hit_error_px}{p95} >= $m->{hit_error_px}{median} &&
   $m->{hit_error_px}{median} > 0.5 && $m->{wrong_object} > 0 && $m->{wrong_object} <= 1 && $m->{wrong_surface} > 0 &&
   $m->{water}{yee_failed} <= $m->{frame}{yee_failed} ? "yes" : "no"')"
+
+equals "itself has no spot" "0" "$(json 'scalar @{$j->{methods}[1]{spots}}')"
+equals "where no refraction is worst" "x y size_px flip_max: yes" "$(grep -oE '^          "[^"]+"' out/metrics.json | tr -d ' "' | head -4 |
+  paste -sd ' '): $(json 'my $s = $j->{methods}[0]{spots}; @$s > 0 && @$s <= 10 && !(grep { $_->{size_px} > $s->[0]{size_px} ||
+  $_->{flip_max} < 0.1 || $_->{flip_max} > 1 || $_->{x} < 0 || $_->{x} > 60 || $_->{y} < 0 || $_->{y} > 42 } @$s) ? "yes" : "no"')"
 
 # --- The pictures are render's, the metrics are diff's
 "$shoal" render box -o one.png --size 61x43 --method none --set ior=1.25
@@ -146,6 +151,12 @@ else
     left.dispatchEvent(new Event("change", { bubbles: true }));
     seen.push("left " + (over.src === document.getElementById("none.flip").src));
     seen.push("pictures " + [...document.images].every((i) => i.naturalWidth > 0) + " " + document.images.length);
+    const spots = document.querySelector("details.spots");
+    spots.open = true;
+    await new Promise((done) => setTimeout(done, 100));
+    const canvases = [...spots.querySelectorAll("canvas")];
+    const drawn = canvases.every((c) => c.getContext("2d").getImageData(0, 0, 32, 32).data.some((v, i) => i % 4 < 3 && v > 0));
+    seen.push("spots " + (canvases.length === 2 * spots.querySelectorAll("figure").length && drawn));
     seen.push("fits " + (document.documentElement.scrollWidth <= innerWidth));
     document.body.innerHTML = "";
     document.body.append("checked: " + seen.join("; "));
@@ -156,7 +167,7 @@ PAGE
     timeout 120 "$browser" --headless=new --no-sandbox --disable-gpu --user-data-dir="$work/profile" --enable-logging=stderr \
       --virtual-time-budget=10000 --window-size=$width,900 --dump-dom "file://$work/checked.html#left=none&right=two-phase&at=25" \
       >.dom 2>.log
-    equals "$width px wide" "checked: opened at 25; 10 at 10 inset(0px 90% 0px 0px); 90 at 90 inset(0px 10% 0px 0px); left true; pictures true 9; fits true" \
+    equals "$width px wide" "checked: opened at 25; 10 at 10 inset(0px 90% 0px 0px); 90 at 90 inset(0px 10% 0px 0px); left true; pictures true 9; spots true; fits true" \
       "$(grep -o 'checked: opened[^<]*' .dom)"
     equals "$width px wide: nothing on the console" "" "$(grep CONSOLE .log)"
   done

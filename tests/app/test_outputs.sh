@@ -23,6 +23,14 @@ equals "no date in the PNG" "" "$(picture chunks a.png | grep -E 'tIME|tEXt|iTXt
 equals "no text in the EXR's header" "" "$(picture attributes a.exr | grep "'" | grep -v "''")"
 no_leftovers "renders"
 
+# --- A surface with a past: a frame is the same alone, in a run, and with other threads
+filter="--set surface=ripple-filter --set wavelength=0.8"
+passes "frames of a filter" "$shoal" render box --frames 0:3 --step 0.5 -o filter%d.png $small $filter
+passes "its frame 2 alone" "$shoal" render box --time 1 -o filter.png $small $filter --threads 7
+equals "same bytes" "same" "$(cmp filter2.png filter.png && echo same)"
+equals "and it moves" "" "$(cmp -s filter1.png filter2.png && echo same)"
+refuses 2 "surface ripple-filter: its lifetime takes" "$shoal" render box -o x.png $small $filter --set lifetime=1e6
+
 # --- EXR layers
 picture channels a.exr | sort >.channels
 sort >.wanted <<END

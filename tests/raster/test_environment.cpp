@@ -8,17 +8,18 @@
 #include <random>
 
 #include "core/thread_pool.h"
+#include "furnace.h"
 #include "raster/environment_build.h"
 #include "raster/light.h"
 
 using namespace shoal;
+using furnace::surface;
+using furnace::to_float3;
+using furnace::unit;
 
 namespace {
 
 constexpr double kPiD = 3.14159265358979323846;
-
-Vec3d unit(Vec3d v) { return v * (1.0 / std::sqrt(dot(v, v))); }
-Vec3f to_float3(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 // As raster/environment_build.h states it: the centre is +x, a quarter right of it +z, the top +y.
 Vec3d direction_of_texel(double u, double v) {
@@ -83,16 +84,6 @@ Lighting surrounded(const EquirectImage& image, ThreadPool& pool) {
   lighting.background.kind = Background::Kind::kEnvironment;
   lighting.background.environment = std::make_shared<const Environment>(make_environment(image, pool));
   return lighting;
-}
-
-SurfaceSample<float> surface(Vec3f normal, Vec3f color, float metallic, float roughness) {
-  SurfaceSample<float> s{};
-  s.normal_world = normal;
-  s.base_color = color;
-  s.alpha = 1;
-  s.metallic = metallic;
-  s.roughness = roughness;
-  return s;
 }
 
 }  // namespace
@@ -293,20 +284,15 @@ TEST_CASE("environment: the lobe's share of a uniform environment is the BRDF's 
 TEST_CASE("environment: a white furnace, metal or not, gives back 1 at every roughness and angle") {
   ThreadPool pool(2);
   const Lighting lighting = surrounded(EquirectImage{16, 8, std::vector<float>(16 * 8 * 3, 1.0f)}, pool);
-  const Vec3d n = unit({0.3, -0.8, 0.5}), aside = unit(cross(n, Vec3d{0, 1, 0}));
+  const Vec3d n = unit({0.3, -0.8, 0.5});
+  std::vector<double> roughnesses = {0}, cosines;
+  for (int i = 1; i <= 40; ++i) roughnesses.push_back(i / 40.0), cosines.push_back(i / 40.0);
   double worst = 0, worst_grey = 0;
-  for (int i = 0; i <= 40; ++i) {
-    for (int j = 1; j <= 40; ++j) {
-      const double cosine = j / 40.0;
-      const Vec3f v = to_float3(n * cosine + aside * std::sqrt(1 - cosine * cosine));
-      for (const float metallic : {0.0f, 1.0f}) {
-        const auto white = surface(to_float3(n), {1, 1, 1}, metallic, static_cast<float>(i) / 40.0f);
-        worst = std::max(worst, difference(shade<float>(white, false, v, lighting, {1, 1, 1}), {1, 1, 1}));
-        const auto grey = surface(to_float3(n), {0.5f, 0.5f, 0.5f}, metallic, static_cast<float>(i) / 40.0f);
-        worst_grey = std::max(worst_grey, double(shade<float>(grey, false, v, lighting, {1, 1, 1}).x));
-      }
-    }
-  }
+  furnace::each_surface(lighting, n, 1, roughnesses, cosines, [&](float, Vec3f out) {
+    worst = std::max(worst, difference(out, {1, 1, 1}));
+  });
+  furnace::each_surface(lighting, n, 0.5f, roughnesses, cosines,
+                        [&](float, Vec3f out) { worst_grey = std::max(worst_grey, double(out.x)); });
   CAPTURE(worst);
   CHECK(worst < 1e-4);
   CHECK(worst_grey < 1.0);

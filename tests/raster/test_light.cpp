@@ -6,9 +6,13 @@
 #include <cstdint>
 #include <random>
 
+#include "furnace.h"
 #include "raster/light.h"
 
 using namespace shoal;
+using furnace::surface;
+using furnace::to_float3;
+using furnace::unit;
 
 namespace {
 
@@ -21,8 +25,6 @@ struct Random {
 };
 
 Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
-Vec3d unit(Vec3d v) { return v * (1.0 / std::sqrt(dot(v, v))); }
-Vec3f to_float3(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 Vec3d random_direction(Random& random) {
   for (;;) {
@@ -30,16 +32,6 @@ Vec3d random_direction(Random& random) {
     const double l2 = dot(v, v);
     if (l2 > 0.01 && l2 < 1) return unit(v);
   }
-}
-
-SurfaceSample<float> surface(Vec3f normal, Vec3f color, float metallic, float roughness) {
-  SurfaceSample<float> s{};
-  s.normal_world = normal;
-  s.base_color = color;
-  s.alpha = 1;
-  s.metallic = metallic;
-  s.roughness = roughness;
-  return s;
 }
 
 // glTF 2.0, appendix B, as it is written there: dielectric and metal mixed, each term on its own, half vector by angle.
@@ -171,17 +163,10 @@ TEST_CASE("a white furnace, light from behind, light scaled by water") {
   lighting.ambient_down = {1, 1, 1};
   lighting.background.color = {1, 1, 1};
   // A white furnace: everything that comes in is 1, so nothing can leave above 1, and a white surface loses little.
-  for (const float roughness : {0.0f, 0.2f, 0.6f, 1.0f}) {
-    for (const float metallic : {0.0f, 1.0f}) {
-      for (const double cosine : {0.02, 0.3, 1.0}) {
-        const Vec3f v = to_float3(unit({std::sqrt(1 - cosine * cosine), cosine, 0}));
-        const float out =
-            shade<float>(surface({0, 1, 0}, {1, 1, 1}, metallic, roughness), false, v, lighting, {1, 1, 1}).x;
-        CHECK(out <= 1.01f);
-        CHECK(out > (metallic == 0.0f ? 0.9f : 0.45f));
-      }
-    }
-  }
+  furnace::each_surface(lighting, {0, 1, 0}, 1, {0.0, 0.2, 0.6, 1.0}, {0.02, 0.3, 1.0}, [](float metallic, Vec3f out) {
+    CHECK(out.x <= 1.01f);
+    CHECK(out.x > (metallic == 0.0f ? 0.9f : 0.45f));
+  });
   Lighting below;
   below.directional.push_back({{0, 1, 0}, {5, 5, 5}});
   const auto s = surface({0, 1, 0}, {0.5f, 0.5f, 0.5f}, 0, 0.5f);

@@ -49,6 +49,9 @@ inline std::vector<Case> all() {
   SurfaceSettings sea = of_kind(SurfaceKind::kSpectrum);
   sea.grid = 64;
   cases.push_back({"spectrum", sea});
+  SurfaceSettings filter = of_kind(SurfaceKind::kRippleFilter);
+  filter.wavelength_m = 1.0f;
+  cases.push_back({"ripple-filter", filter});
   SurfaceSettings sum = of_kind(SurfaceKind::kSum);
   sum.parts = {of_kind(SurfaceKind::kGerstner), cubic};
   cases.push_back({"sum", sum});

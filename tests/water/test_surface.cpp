@@ -98,7 +98,7 @@ TEST_CASE("slope= is the RMS slope over the body", "[water]") {
       c.settings.slope = slope;
       double mean = 0;
       // Ripples live and die; their mean over a life is what is set.
-      const bool fades = c.settings.kind == SurfaceKind::kRipples;
+      const bool fades = c.settings.kind == SurfaceKind::kRipples || c.settings.kind == SurfaceKind::kRippleFilter;
       const double life = c.settings.falloff == RippleFalloff::kExponential ? 24.0 : 4.0;
       const int times = fades ? 59 : 1;
       for (int i = 0; i < times; ++i) {

@@ -105,6 +105,7 @@ SHOAL_ISA_CASE(surfaces_are_pinned, "surfaces have the bits that are written her
       {"gradient-waves", "0060a96e0e24b0ec9481a8523e04fdbf"},
       {"ripples exponential", "8c57f586cd4c6ea41ac0423df4d95f7a"},
       {"spectrum", "cd6b924515c9e486ab3a42e0944956e7"},
+      {"ripple-filter", "f9318f58345231c3fff0b9bf65b810b2"},
       {"gerstner 5", "2f20da069df72a341e6a1077f09dd981"},
   };
   for (const auto& c : surface_cases::all()) {
