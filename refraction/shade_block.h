@@ -144,7 +144,8 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
   if (f.capture) {
     // At water pixels the G-buffer holds the surface itself.
     shade_detail::capture_surface(
-        f, block, {at.crossing_world, at.normal, zero, WideF(0.0f), WideF(0.0f), roughness_of_waves(at.slope_variance), zero},
+        f, block,
+        {at.crossing_world, at.normal, zero, WideF(0.0f), WideF(0.0f), roughness_of_waves(at.slope_variance), zero},
         lanes);
     shade_detail::capture_hits(f, block, zero, zero, WideI(kNoId), HitKind::kSky, lanes);
   }

@@ -123,7 +123,8 @@ SplineGrid spline_of_sea(const Sea& sea, int side, double square_m2, double fine
     const float cosine = det_cos(6.28318531f * static_cast<float>(i) / static_cast<float>(side));
     const std::size_t at = static_cast<std::size_t>(i);
     response[at] = 1.0f / (0.75f + 0.25f * cosine);
-    const double c = static_cast<double>(cosine), r = static_cast<double>(response[at]), cells = side / (kTurn / sea.unit);
+    const double c = static_cast<double>(cosine), r = static_cast<double>(response[at]),
+                 cells = side / (kTurn / sea.unit);
     square[at] = r * r * (64.0 + 52.0 * c + 4.0 * c * c) / 120.0;
     slope[at] = r * r * cells * cells * (2.0 - 2.0 * c) * (2.0 + c) / 3.0;
   }
@@ -171,8 +172,8 @@ SplineGrid spline_of_sea(const Sea& sea, int side, double square_m2, double fine
 
 }  // namespace
 
-// The whole sea, and grids of half the side each, down to 4: each for such a square that its shortest wave is as near to
-// gone as it will be, 0.78 cycles across.
+// The whole sea, and grids of half the side each, down to 4: each for such a square that its shortest wave is as near
+// to gone as it will be, 0.78 cycles across.
 void add_spectrum(const Request& request, const std::vector<float>& waves, WaterSurface& surface) {
   const Sea sea = sea_at(request, waves);
   const double tile_m = kTurn / sea.unit;

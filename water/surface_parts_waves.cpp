@@ -174,7 +174,8 @@ void add_trochoids(const Request& request, WaterSurface& surface) {
 
 // Mean squared slope of each wave. Sideways motion gathers water's slopes under the crests: to second order in the
 // waves' folds Q = 2 pi turns |push|, a wave's share (a k)^2 / 2 grows by 1 + Q^2 / 4 + sum over the others of
-// Q_j^2 cos^2 / 2, with the angle between the two. (Of one wave it is 2 (1 - sqrt(1 - Q^2)) / Q^2, at kMaxFold 2 % more.)
+// Q_j^2 cos^2 / 2, with the angle between the two. (Of one wave it is 2 (1 - sqrt(1 - Q^2)) / Q^2, at kMaxFold 2 %
+// more.)
 static void find_slope_variances(WaterSurface& surface) {
   for (std::size_t i = 0; i < surface.trochoids.size(); ++i) {
     TrochoidWave& w = surface.trochoids[i];

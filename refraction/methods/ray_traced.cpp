@@ -42,7 +42,7 @@ struct Path {
   std::int32_t from = kNowhere;  // the body that they start on: if its surface is a plane they do not meet it again
   // What they see where they leave the scene: the background along them, or, mirrored by filtered water, this.
   const Vec3<WideF>* seen_beyond = nullptr;
-  Vec3<WideF> lift;              // to where they start on that one's side, if it is displaced
+  Vec3<WideF> lift;  // to where they start on that one's side, if it is displaced
   // Of the water pixels' hit buffers, at the pixel's centre: what these lanes meet is what the pixel shows.
   WideM shows;
   HitKind shown_as = HitKind::kSurface;
@@ -270,8 +270,7 @@ class Tracer {
     WideM on = next.lanes & (brings >= WideF(f.method_option[kWeight]));
     if (too_deep || !sees_scene) on = mask_from_bits(0);
     const WideM cut = next.lanes & !on;
-    if (any(cut))
-      add(next.weight * next.clear, beyond(next, next.ray.direction_world), cut);
+    if (any(cut)) add(next.weight * next.clear, beyond(next, next.ray.direction_world), cut);
     if (none(on)) return;
     next.lanes = on;
     count_rays(f, kind, static_cast<std::uint64_t>(__builtin_popcount(to_bits(on))));
@@ -302,8 +301,8 @@ class Tracer {
   void capture_water(const ExactRay<WideF>& at, WideM lanes) {
     const Vec3<WideF> zero = broadcast<WideF>(Vec3f{0, 0, 0});
     shade_detail::capture_surface(
-        f, block, {at.crossing_world, at.normal, zero, WideF(0.0f), WideF(0.0f), roughness_of_waves(at.slope_variance),
-         zero},
+        f, block,
+        {at.crossing_world, at.normal, zero, WideF(0.0f), WideF(0.0f), roughness_of_waves(at.slope_variance), zero},
         lanes);
     shade_detail::capture_hits(f, block, zero, zero, WideI(kNoId), HitKind::kSky, lanes);
   }

@@ -5,8 +5,8 @@
 #include "raster/ray_triangle.h"
 #include "refraction/broad/broad_phase.h"
 #include "refraction/narrow/displaced_surface.h"
-#include "water/optics.h"
 #include "water/filter_surface.h"
+#include "water/optics.h"
 #include "water/valid_normal.h"
 
 namespace shoal::inline SHOAL_ISA_NS {

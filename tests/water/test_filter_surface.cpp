@@ -32,7 +32,9 @@ struct Slope {
   double square() const { return x * x + z * z; }
 };
 
-Slope slope_of(const SurfacePoint<float>& p) { return {static_cast<double>(p.slope_x), static_cast<double>(p.slope_z)}; }
+Slope slope_of(const SurfacePoint<float>& p) {
+  return {static_cast<double>(p.slope_x), static_cast<double>(p.slope_z)};
+}
 
 // Mean of the unfiltered slopes over a parallelogram: across x along points.
 Slope mean_slope(const WaterSurface& surface, double x, double z, const Footprint<float>& p, int along, int across) {
@@ -40,9 +42,9 @@ Slope mean_slope(const WaterSurface& surface, double x, double z, const Footprin
   for (int i = 0; i < along; ++i) {
     for (int j = 0; j < across; ++j) {
       const double u = (i + 0.5) / along - 0.5, v = (j + 0.5) / across - 0.5;
-      const Slope s = slope_of(surface_at(
-          surface, static_cast<float>(x + u * static_cast<double>(p.ax) + v * static_cast<double>(p.bx)),
-          static_cast<float>(z + u * static_cast<double>(p.az) + v * static_cast<double>(p.bz))));
+      const Slope s = slope_of(
+          surface_at(surface, static_cast<float>(x + u * static_cast<double>(p.ax) + v * static_cast<double>(p.bx)),
+                     static_cast<float>(z + u * static_cast<double>(p.az) + v * static_cast<double>(p.bz))));
       sum.x += s.x, sum.z += s.z;
     }
   }
@@ -86,8 +88,7 @@ TEST_CASE("the mean of a wave over a parallelogram is the weight times the wave"
     const Footprint<float> p = footprint(random.within(0, 0.3), random.within(0, 0.3), random.within(0, 7));
     const double exact = sinc(kx * static_cast<double>(p.ax) + kz * static_cast<double>(p.az)) *
                          sinc(kx * static_cast<double>(p.bx) + kz * static_cast<double>(p.bz));
-    const double got =
-        static_cast<double>(wave_weight(static_cast<float>(kx), static_cast<float>(kz), p));
+    const double got = static_cast<double>(wave_weight(static_cast<float>(kx), static_cast<float>(kz), p));
     REQUIRE(std::fabs(got - exact) < 0.05 + (std::fabs(exact) < 0.22 ? 0.17 : 0));
   }
 }
@@ -119,9 +120,9 @@ TEST_CASE("noise's weight is the best factor", "[water]") {
           const int along = line ? 64 : 10, across = line ? 1 : 10;
           Slope mean;
           const auto at = [&](double u, double v) {
-            const Noise<float> n = gradient_noise(static_cast<float>(x + u * std::cos(turn) - v * std::sin(turn)),
-                                                  static_cast<float>(z + u * std::sin(turn) + v * std::cos(turn)), 0, 0,
-                                                  5, cubic);
+            const Noise<float> n =
+                gradient_noise(static_cast<float>(x + u * std::cos(turn) - v * std::sin(turn)),
+                               static_cast<float>(z + u * std::sin(turn) + v * std::cos(turn)), 0, 0, 5, cubic);
             return Slope{static_cast<double>(n.dx), static_cast<double>(n.dz)};
           };
           for (int a = 0; a < along; ++a) {
@@ -175,14 +176,14 @@ TEST_CASE("filtered slopes are near their mean over the footprint", "[water]") {
           const Footprint<float> p = footprint(side_m * longer, side_m, random.within(0, kTurn));
           const Slope mean = mean_slope(surface, x, z, p, along, across);
           const float fx = static_cast<float>(x), fz = static_cast<float>(z);
-          const Slope got = slope_of(filtered_surface_at(surface, fx, fz, p).mean), own = slope_of(surface_at(surface, fx, fz));
+          const Slope got = slope_of(filtered_surface_at(surface, fx, fz, p).mean),
+                      own = slope_of(surface_at(surface, fx, fz));
           off += Slope{got.x - mean.x, got.z - mean.z}.square();
           sampled += Slope{own.x - mean.x, own.z - mean.z}.square();
           whole += own.square();
         }
         CAPTURE(c.name, side_m, longer, std::sqrt(off / whole), std::sqrt(sampled / whole));
-        WARN(c.name << " " << side_m << " x" << longer << " off " << std::sqrt(off / whole) << " sampled " << std::sqrt(sampled / whole));
-        CHECK(std::sqrt(off / whole) < (longer > 1 ? 0.42 : 0.3));
+        CHECK(std::sqrt(off / whole) < (longer > 1 ? 0.37 : 0.25));
         CHECK(off <= 1.02 * sampled + 1e-4 * whole);
       }
     }
@@ -211,7 +212,6 @@ TEST_CASE("what is kept and what is hidden add up to the surface's slope varianc
       }
       kept /= count / 5, hidden /= count / 5;
       CAPTURE(c.name, side_m, whole, kept, hidden);
-        WARN(c.name << " " << side_m << " " << kept/whole << " " << hidden / whole);
       CHECK(kept + hidden == Approx(whole).epsilon(0.1));
       if (side_m == 40.0) CHECK(kept < 1e-6 * whole);
     }

@@ -56,7 +56,10 @@ SHOAL_ISA_CASE(filtered_lanes_equal, "filtered surfaces have the same bits in la
       alignas(64) float in[6][16], wide[4][16];
       // From all lanes near to all far, and mixed.
       for (int i = 0; i < 16; ++i) {
-        const float size = block % 4 == 0 ? 0.02f : block % 4 == 1 ? 20.0f : block % 4 == 2 ? 0.5f : 1.5f * within(1.0f);
+        const float size = block % 4 == 0   ? 0.02f
+                           : block % 4 == 1 ? 20.0f
+                           : block % 4 == 2 ? 0.5f
+                                            : 1.5f * within(1.0f);
         in[0][i] = within(15.0f), in[1][i] = within(15.0f);
         for (int k = 2; k < 6; ++k) in[k][i] = within(size);
       }
