@@ -12,6 +12,7 @@
 #include "raster/cull.h"
 #include "raster/fragments.h"
 #include "raster/front_end.h"
+#include "raster/ray_triangle.h"
 #include "raster/setup.h"
 #include "raster/visibility.h"
 #include "refraction/broad/broad_phase.h"
@@ -133,6 +134,7 @@ struct WaterPass {
   Frustum frustum;                        // of the region's bounds
   PassSettings pass;
   float near_m = 0;        // of the camera: displaced water that is nearer is not met
+  RayDifferential<float> pixel{};  // of the camera's rays
   bool mirrored = false;   // this is the mirrored pass of the two
   bool looks_far = false;  // the narrow phase may look anywhere in the frame
   bool mirrors = false;    // the surface shows the scene on the eye's own side, not the background alone

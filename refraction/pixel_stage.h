@@ -42,10 +42,16 @@ SHOAL_INLINE Ray<WideF> block_rays(const View& view, const Block& block) {
                    to_float(WideI(block.y_px) + block_y()) + WideF(0.5f));
 }
 
+// The eye's pixel, to filter the water's waves over; null where they are not filtered.
+SHOAL_INLINE const RayDifferential<float>* filtering_pixel(const WaterPass& water) {
+  return water.surface != nullptr && water.surface->filtered ? &water.pixel : nullptr;
+}
+
 // The water as the eye's rays meet it, waves and all.
 SHOAL_INLINE WaterSide eye_side(const WaterPass& water) {
   WaterSide side = water_side(*water.body, water.surface, water.optics.eye_below);
   side.t_near = water.near_m;
+  side.pixel = filtering_pixel(water);
   return side;
 }
 

@@ -3,6 +3,7 @@
 
 #include "raster/post.h"
 #include "refraction/blend_region.h"
+#include "refraction/narrow/rough_mirror.h"
 #include "refraction/pixel_stage.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
@@ -131,13 +132,21 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
   if constexpr (MirrorsItsWay<M>) M::mirror(f, water, block, r);
   const ExactRay<WideF>& at = r.at_surface;
   const bool eye_below = water.optics.eye_below;
+  const bool filtered = filtering_pixel(water) != nullptr;
+  Vec3<WideF> mirrored_background;
+  if (filtered)
+    mirrored_background =
+        mirror_roughly<WideF>(f.scene->lighting.background, *water.body, is_displaced(*water.body, water.surface),
+                              r.reflected.direction_world, r.at_surface);
   const WideM through = lanes & at.transmitted;
   const Vec3<WideF> zero = broadcast<WideF>(Vec3f{0, 0, 0});
 
   if (f.capture) {
     // At water pixels the G-buffer holds the surface itself.
     shade_detail::capture_surface(
-        f, block, {at.crossing_world, at.normal, zero, WideF(0.0f), WideF(0.0f), WideF(0.0f), zero}, lanes);
+        f, block,
+        {at.crossing_world, at.normal, zero, WideF(0.0f), WideF(0.0f), roughness_of_waves(at.slope_variance), zero},
+        lanes);
     shade_detail::capture_hits(f, block, zero, zero, WideI(kNoId), HitKind::kSky, lanes);
   }
   Vec3<WideF> refracted = zero, reflected = zero;
@@ -164,6 +173,10 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
                        const Vec3<WideF> p = s.surface.position_world;
                        shade_detail::capture_hits(f, block, p, p, shown, HitKind::kMirror, total);
                      });
+    if (filtered && !MirrorsItsWay<M> && !eye_below)
+      reflected = select<WideF>(lanes & !is_triangle(shown), mirrored_background, reflected);
+  } else if (filtered && !MirrorsItsWay<M>) {
+    reflected = mirrored_background;
   } else {
     reflected = background_radiance<WideF>(f.scene->lighting.background, r.reflected.direction_world);
   }

@@ -68,6 +68,7 @@ void place_water(FrameData& f, const MethodKernels& method) {
     w.index = static_cast<std::int32_t>(b);
     w.surface = bodies[b].surface.kind == SurfaceKind::kFlat ? nullptr : &f.surfaces[b];
     w.near_m = f.view.camera.near_m;
+    w.pixel = pixel_ray_differential<float>(f.view);
     const Place eye = place_of(bodies[b], w.surface, f.view.camera.position_world);
     const bool displaced = is_displaced(bodies[b], w.surface);
     const WaterBody plane = displaced ? with_eye_on_its_side(bodies[b], eye) : WaterBody();

@@ -100,6 +100,20 @@ void check_jpeg(Encoded bytes, const std::string& name) {
   }
 }
 
+// A file in memory. The library's own reader believes any place that a damaged file names, ones before it too.
+class BoundedMemory final : public OIIO::Filesystem::IOMemReader {
+ public:
+  using IOMemReader::IOMemReader;
+  bool seek(std::int64_t offset) override { return holds(offset) && IOMemReader::seek(offset); }
+  std::size_t read(void* to, std::size_t bytes) override { return holds(m_pos) ? IOMemReader::read(to, bytes) : 0; }
+  std::size_t pread(void* to, std::size_t bytes, std::int64_t offset) override {
+    return holds(offset) ? IOMemReader::pread(to, bytes, offset) : 0;
+  }
+
+ private:
+  bool holds(std::int64_t offset) const { return offset >= 0 && static_cast<std::uint64_t>(offset) <= size(); }
+};
+
 struct Reader {
   Reader(Encoded bytes, const std::string& name_in, const ImageLimits& limits)
       : name(name_in),
@@ -122,7 +136,7 @@ struct Reader {
   std::string name;
   Format format;
   std::vector<std::uint8_t> png;  // checked and stripped
-  OIIO::Filesystem::IOMemReader memory;
+  BoundedMemory memory;
   std::unique_ptr<OIIO::ImageInput> input;
 };
 

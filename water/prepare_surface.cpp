@@ -108,6 +108,7 @@ WaterSurface at_time(const std::vector<SurfaceModel::Part>& parts, const PlaneEx
   WaterSurface surface;
   const double time = std::min(std::max(time_s, -1e6), 1e6);
   for (const auto& part : parts) {
+    surface.filtered = surface.filtered && part.settings.filter == WaveFilter::kFootprint;
     const surface_parts::Request request = {part.settings, part.amplitude_m,
                                             time * static_cast<double>(part.settings.speed), extent};
     switch (part.settings.kind) {

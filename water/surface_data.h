@@ -32,6 +32,7 @@ struct TrochoidWave {
   float turns_x_per_m, turns_z_per_m, phase_turns;
   float amplitude_m;
   float push_x_m, push_z_m;
+  float slope_variance;  // its share of the surface's mean squared slope
 };
 
 // Heights on a grid, with the unit normals at its points: Champandard's water buffer.
@@ -39,6 +40,7 @@ struct NormalGrid {
   std::int32_t first;  // in WaterSurface::grid_values: count^2 rows along x of height, normal x, normal y, normal z
   std::int32_t count;  // points a side
   float min_x_m, min_z_m, cells_per_m_x, cells_per_m_z;
+  float turns_per_m, slope_variance;  // of its waves; mean squared slope over the grid
 };
 
 // Coefficients of a quadratic B-spline on a square grid, one every cell: coefficient (i, j) belongs to
@@ -48,6 +50,10 @@ struct SplineGrid {
   std::int32_t count_x, count_z;
   std::int32_t wraps;  // 1: repeats, the counts are powers of two; 0: beyond the edge as at it
   float min_x_m, min_z_m, cells_per_m;
+  // What is left for footprints: the same waves over a square of side sqrt(square_m2) (0: all of them), with their mean
+  // squared slope, and the mean product with the slopes of the next coarser grid (0: there is none).
+  float square_m2, slope_variance, next_covariance;
+  std::int32_t first_coarser, coarser_count;  // in WaterSurface::coarser_grids
 };
 
 struct WaterSurface {
@@ -57,7 +63,9 @@ struct WaterSurface {
   PodVector<TrochoidWave> trochoids;
   PodVector<NormalGrid> normal_grids;
   PodVector<SplineGrid> spline_grids;
+  PodVector<SplineGrid> coarser_grids;  // no terms of the sum: they stand in for those above (water/filter_surface.h)
   PodVector<float> grid_values;
+  bool filtered = true;  // over a pixel's footprint
   float reach_m = 1e6f;  // beyond it in x or z the surface is as at it
   // Over the body: |height| and the length of the slope are never above, and come within half of them.
   float height_bound_m = 0;

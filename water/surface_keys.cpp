@@ -88,6 +88,10 @@ const std::vector<SurfaceChoice>& surface_choices() {
        {"linear", "exponential"},
        [](const SurfaceSettings& s) { return static_cast<std::size_t>(s.falloff); },
        [](SurfaceSettings& s, std::size_t v) { s.falloff = static_cast<RippleFalloff>(v); }},
+      {"filter",
+       {"footprint", "none"},
+       [](const SurfaceSettings& s) { return static_cast<std::size_t>(s.filter); },
+       [](SurfaceSettings& s, std::size_t v) { s.filter = static_cast<WaveFilter>(v); }},
   };
   return choices;
 }

@@ -4,6 +4,7 @@
 
 #include "core/math.h"
 #include "water/fft.h"
+#include "water/footprint.h"
 #include "water/surface_parts.h"
 
 namespace shoal::surface_parts {
@@ -65,46 +66,130 @@ std::vector<float> spectrum_waves(const SurfaceSettings& s) {
   return waves;
 }
 
-// h(x, t) = sum over k of (h0(k) exp(-i w t) + conj(h0(-k)) exp(i w t)) exp(i k x), w^2 = g k, at the points of the
-// tile, as the coefficients of the spline that goes through those heights: the transform's terms over the spline's own.
-// Source: Tessendorf 2001, eqs. 36 and 43. Differs: waves travel along k; no chop; the spline.
-void add_spectrum(const Request& request, const std::vector<float>& waves, WaterSurface& surface) {
-  const SurfaceSettings& s = request.settings;
-  const int side = s.grid;
-  const std::size_t n = static_cast<std::size_t>(side);
-  const double unit = kTurn / static_cast<double>(*s.tile_m);
-  std::vector<Complex> terms(n * n);
-  std::vector<float> response(n);
-  for (int i = 0; i < side; ++i) {
-    response[static_cast<std::size_t>(i)] =
-        1.0f / (0.75f + 0.25f * det_cos(6.28318531f * static_cast<float>(i) / static_cast<float>(side)));
+namespace {
+
+// A tile's waves at a time: height(x) = amplitude times the sum of terms exp(i k x).
+struct Sea {
+  int side;
+  float tile_m, amplitude_m;
+  double unit;  // of wave numbers, 1/m
+  std::vector<Complex> terms;
+
+  const Complex& term(int number_x, int number_z) const {
+    const int i = number_x & (side - 1), j = number_z & (side - 1);
+    return terms[static_cast<std::size_t>(j) * static_cast<std::size_t>(side) + static_cast<std::size_t>(i)];
   }
-  for (int j = 0; j < side; ++j) {
-    for (int i = 0; i < side; ++i) {
-      const double kx = unit * wave_number(i, side), kz = unit * wave_number(j, side);
+};
+
+// h(x, t) = sum over k of (h0(k) exp(-i w t) + conj(h0(-k)) exp(i w t)) exp(i k x), w^2 = g k.
+// Source: Tessendorf 2001, eqs. 36 and 43. Differs: waves travel along k; no chop.
+Sea sea_at(const Request& request, const std::vector<float>& waves) {
+  const SurfaceSettings& s = request.settings;
+  const std::size_t n = static_cast<std::size_t>(s.grid);
+  Sea sea{s.grid, *s.tile_m, request.amplitude_m, kTurn / static_cast<double>(*s.tile_m), std::vector<Complex>(n * n)};
+  for (int j = 0; j < sea.side; ++j) {
+    for (int i = 0; i < sea.side; ++i) {
+      const double kx = sea.unit * wave_number(i, sea.side), kz = sea.unit * wave_number(j, sea.side);
       const double turns = std::sqrt(kGravity * std::sqrt(kx * kx + kz * kz)) / kTurn * request.time_s;
       float sine, cosine;
       det_sincos(static_cast<float>(turns - std::floor(turns)) * 6.28318531f, sine, cosine);
       const std::size_t at = static_cast<std::size_t>(j) * n + static_cast<std::size_t>(i);
-      const std::size_t opposite =
-          static_cast<std::size_t>((side - j) & (side - 1)) * n + static_cast<std::size_t>((side - i) & (side - 1));
+      const std::size_t opposite = static_cast<std::size_t>((sea.side - j) & (sea.side - 1)) * n +
+                                   static_cast<std::size_t>((sea.side - i) & (sea.side - 1));
       const Complex a = {waves[2 * at], waves[2 * at + 1]}, b = {waves[2 * opposite], waves[2 * opposite + 1]};
-      const float scale =
-          request.amplitude_m * response[static_cast<std::size_t>(i)] * response[static_cast<std::size_t>(j)];
       // a (cos - i sin) + conj(b) (cos + i sin)
-      terms[at] = {scale * ((a.re + b.re) * cosine + (a.im + b.im) * sine),
-                   scale * ((a.im - b.im) * cosine + (b.re - a.re) * sine)};
+      sea.terms[at] = {(a.re + b.re) * cosine + (a.im + b.im) * sine, (a.im - b.im) * cosine + (b.re - a.re) * sine};
+    }
+  }
+  return sea;
+}
+
+// What a square of side sqrt(square_m2) leaves of a wave (water/footprint.h).
+float share_of_wave(double k2, double square_m2) {
+  return isotropic_weight(static_cast<float>(k2 * square_m2 / (kTurn * kTurn)));
+}
+
+// The sea over a square, at the points of a grid of fewer points a side (what that cannot hold is left out), as the
+// coefficients of the spline that goes through those heights: the transform's terms over the spline's own.
+//   finer_m2  the square of the grid before
+// Returns the grid, its mean squared slope, and in `covariance` its slopes' mean product with those of the grid before.
+SplineGrid spline_of_sea(const Sea& sea, int side, double square_m2, double finer_m2, WaterSurface& surface,
+                         float& covariance) {
+  const std::size_t n = static_cast<std::size_t>(side);
+  // Of a wave's height, coefficient, mean square and mean squared derivative of the spline, each way.
+  std::vector<float> response(n);
+  std::vector<double> square(n), slope(n);
+  for (int i = 0; i < side; ++i) {
+    const float cosine = det_cos(6.28318531f * static_cast<float>(i) / static_cast<float>(side));
+    const std::size_t at = static_cast<std::size_t>(i);
+    response[at] = 1.0f / (0.75f + 0.25f * cosine);
+    const double c = static_cast<double>(cosine), r = static_cast<double>(response[at]),
+                 cells = side / (kTurn / sea.unit);
+    square[at] = r * r * (64.0 + 52.0 * c + 4.0 * c * c) / 120.0;
+    slope[at] = r * r * cells * cells * (2.0 - 2.0 * c) * (2.0 + c) / 3.0;
+  }
+  std::vector<Complex> terms(n * n);
+  double own = 0, shared = 0;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      const int number_x = wave_number(i, side), number_z = wave_number(j, side);
+      const std::size_t at = static_cast<std::size_t>(j) * n + static_cast<std::size_t>(i);
+      terms[at] = {0.0f, 0.0f};
+      if (side != sea.side && (i == side / 2 || j == side / 2)) continue;
+      const Complex wave = sea.term(number_x, number_z);
+      const double kx = sea.unit * number_x, kz = sea.unit * number_z, k2 = kx * kx + kz * kz;
+      const float share = square_m2 == 0 ? 1.0f : share_of_wave(k2, square_m2);
+      const float scale =
+          sea.amplitude_m * response[static_cast<std::size_t>(i)] * response[static_cast<std::size_t>(j)] * share;
+      terms[at] = {scale * wave.re, scale * wave.im};
+      const double power = static_cast<double>(wave.re * wave.re + wave.im * wave.im) * static_cast<double>(share);
+      const std::size_t x = static_cast<std::size_t>(i), z = static_cast<std::size_t>(j);
+      const double spline_k2 = slope[x] * square[z] + square[x] * slope[z];
+      own += power * static_cast<double>(share) * spline_k2;
+      // The finer grid, twice as fine, has about the wave's own slope.
+      const float finer_share = finer_m2 == 0 ? 1.0f : share_of_wave(k2, finer_m2);
+      shared += power * static_cast<double>(finer_share) * std::sqrt(k2 * spline_k2);
     }
   }
   inverse_fft_2d(terms, n);
+  const double square_amplitude = static_cast<double>(sea.amplitude_m) * static_cast<double>(sea.amplitude_m);
   const SplineGrid grid = {static_cast<std::int32_t>(surface.grid_values.size()),
                            side,
                            side,
                            1,
                            0.0f,
                            0.0f,
-                           static_cast<float>(side) / *s.tile_m};
+                           static_cast<float>(side) / sea.tile_m,
+                           static_cast<float>(square_m2),
+                           static_cast<float>(own * square_amplitude),
+                           0.0f,
+                           static_cast<std::int32_t>(surface.coarser_grids.size()),
+                           0};
   for (const Complex& value : terms) surface.grid_values.push() = value.re;
+  covariance = static_cast<float>(shared * square_amplitude);
+  return grid;
+}
+
+}  // namespace
+
+// The whole sea, and grids of half the side each, down to 4: each for such a square that its shortest wave is as near
+// to gone as it will be, 0.78 cycles across.
+void add_spectrum(const Request& request, const std::vector<float>& waves, WaterSurface& surface) {
+  const Sea sea = sea_at(request, waves);
+  const double tile_m = kTurn / sea.unit;
+  float covariance = 0;
+  SplineGrid grid = spline_of_sea(sea, sea.side, 0, 0, surface, covariance);
+  double before_m2 = 0;
+  SplineGrid* before = &grid;
+  for (int side = sea.side / 2; side >= 4 && surface.filtered; side /= 2) {
+    const double square_m = 2 * 0.78 * tile_m / side;
+    const SplineGrid coarser = spline_of_sea(sea, side, square_m * square_m, before_m2, surface, covariance);
+    before->next_covariance = covariance;
+    surface.coarser_grids.push() = coarser;
+    before = &surface.coarser_grids[surface.coarser_grids.size() - 1];
+    before_m2 = square_m * square_m;
+    ++grid.coarser_count;
+  }
   surface.spline_grids.push() = grid;
   surface.reach_m = std::min(surface.reach_m, 0x1p+28f / grid.cells_per_m);
   bound_spline(grid, surface.grid_values.data(), surface);

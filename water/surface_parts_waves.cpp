@@ -107,15 +107,21 @@ void sample_ripples(const Request& request, const WaterSurface& ripples, WaterSu
                                  e.min_x_m,
                                  e.min_z_m,
                                  step_x > 0 ? 1.0f / step_x : 0.0f,
-                                 step_z > 0 ? 1.0f / step_z : 0.0f};
+                                 step_z > 0 ? 1.0f / step_z : 0.0f,
+                                 1.0f / *request.settings.wavelength_m,
+                                 0.0f};
+  double square = 0;
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < n; ++i) {
       const SurfacePoint<float> p =
           surface_at(ripples, e.min_x_m + step_x * static_cast<float>(i), e.min_z_m + step_z * static_cast<float>(j));
       const Vec3f normal = surface_normal<float>({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, p.slope_x, p.slope_z);
       for (const float value : {p.height_m, normal.x, normal.y, normal.z}) surface.grid_values.push() = value;
+      square += static_cast<double>(p.slope_x * p.slope_x + p.slope_z * p.slope_z);
     }
   }
+  surface.normal_grids[surface.normal_grids.size() - 1].slope_variance =
+      static_cast<float>(square / static_cast<double>(n * n));
 }
 
 }  // namespace
@@ -159,9 +165,33 @@ void add_trochoids(const Request& request, WaterSurface& surface) {
     wave.amplitude_m = static_cast<float>(amplitude);
     wave.push_x_m = static_cast<float>(push * static_cast<double>(cosine));
     wave.push_z_m = static_cast<float>(push * static_cast<double>(sine));
+    wave.slope_variance = 0;  // finish_trochoids
     surface.trochoids.push() = wave;
     wavelength /= static_cast<double>(s.lacunarity);
     amplitude *= static_cast<double>(s.gain);
+  }
+}
+
+// Mean squared slope of each wave. Sideways motion gathers water's slopes under the crests: to second order in the
+// waves' folds Q = 2 pi turns |push|, a wave's share (a k)^2 / 2 grows by 1 + Q^2 / 4 + sum over the others of
+// Q_j^2 cos^2 / 2, with the angle between the two. (Of one wave it is 2 (1 - sqrt(1 - Q^2)) / Q^2, at kMaxFold 2 %
+// more.)
+static void find_slope_variances(WaterSurface& surface) {
+  for (std::size_t i = 0; i < surface.trochoids.size(); ++i) {
+    TrochoidWave& w = surface.trochoids[i];
+    const double kx = kTurn * static_cast<double>(w.turns_x_per_m), kz = kTurn * static_cast<double>(w.turns_z_per_m);
+    const double k2 = kx * kx + kz * kz;
+    double gain = 1;
+    for (std::size_t j = 0; j < surface.trochoids.size(); ++j) {
+      const TrochoidWave& o = surface.trochoids[j];
+      const double ox = kTurn * static_cast<double>(o.turns_x_per_m), oz = kTurn * static_cast<double>(o.turns_z_per_m);
+      const double fold_x = static_cast<double>(o.push_x_m), fold_z = static_cast<double>(o.push_z_m);
+      const double fold2 = (fold_x * fold_x + fold_z * fold_z) * (ox * ox + oz * oz);
+      const double along = (kx * ox + kz * oz) * (kx * ox + kz * oz) / std::max(k2 * (ox * ox + oz * oz), 1e-300);
+      gain += j == i ? 0.25 * fold2 : 0.5 * fold2 * along;
+    }
+    const double amplitude = static_cast<double>(w.amplitude_m);
+    w.slope_variance = static_cast<float>(0.5 * amplitude * amplitude * k2 * gain);
   }
 }
 
@@ -188,6 +218,7 @@ void finish_trochoids(WaterSurface& surface) {
     surface.trochoids[i].push_x_m = static_cast<float>(static_cast<double>(surface.trochoids[i].push_x_m) * kept);
     surface.trochoids[i].push_z_m = static_cast<float>(static_cast<double>(surface.trochoids[i].push_z_m) * kept);
   }
+  find_slope_variances(surface);
   const double limited = fold * kept;
   surface.height_bound_m += height * kBoundSlack;
   surface.slope_bound += static_cast<float>(steepness / std::sqrt(1.0 - limited * limited)) * kBoundSlack;

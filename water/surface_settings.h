@@ -23,6 +23,9 @@ enum class NoiseFade : std::uint8_t { kQuintic, kCubic };
 // How a ripple dies away with distance and time (Champandard 1999).
 enum class RippleFalloff : std::uint8_t { kLinear, kExponential };
 
+// Are the waves filtered over a pixel's footprint (water/filter_surface.h)?
+enum class WaveFilter : std::uint8_t { kFootprint, kNone };
+
 // A drop that falls at a place of the plane (metres along axis_x and axis_z from the origin) at a time.
 struct RippleDrop {
   float x_m = 0, z_m = 0, time_s = 0;
@@ -56,6 +59,8 @@ struct SurfaceSettings {
   float direction_deg = 0;  // where the longest wave goes, from +x to +z
   // spectrum: the waves go towards direction_deg
   std::optional<float> tile_m;  // > 0: it repeats after so many metres each way
+  // A sum is filtered where all of its parts are.
+  WaveFilter filter = WaveFilter::kFootprint;
   // sum
   std::vector<SurfaceSettings> parts;
 };

@@ -49,16 +49,30 @@ SHOAL_INLINE SurfacePoint<F> ripple_at(const RippleSource& s, F x_m, F z_m) {
 // Rounds of Newton's method that find the point at rest.
 inline constexpr int kTrochoidRounds = 4;
 
+// Trochoids as they are; filter_surface.h fades them instead.
+struct WholeWaves {
+  template <class F>
+  SHOAL_INLINE bool leave_out(const TrochoidWave&) const {
+    return false;
+  }
+  template <class F>
+  SHOAL_INLINE F of(const TrochoidWave&, float constant) const {
+    return F(constant);
+  }
+};
+
 // Sum of Gerstner's waves over a point of the plane. They move water sideways too, so the height over (x, z) is that of
 // the point at rest p with p - push(p) = (x, z), found by kTrochoidRounds rounds from p = (x, z).
 //
 //   waves, count   the sum of 2 pi turns_per_m |push| over them is at most kMaxFold, so p is unique
+//   shares         which waves count, and by what their amplitude and push are multiplied
 // Returns height and gradient (of the height over the plane, by the implicit function theorem).
 // Source: Gerstner 1809; Tessendorf 2001, section 3. Differs: a height field.
 // Error: p off by 1e-5 of the longest wave at kMaxFold (tests/water/test_surface.cpp).
 inline constexpr float kMaxFold = 0.6f;
-template <class F>
-SHOAL_INLINE SurfacePoint<F> trochoids_at(const TrochoidWave* waves, std::size_t count, F x_m, F z_m) {
+template <class F, class Shares = WholeWaves>
+SHOAL_INLINE SurfacePoint<F> trochoids_at(const TrochoidWave* waves, std::size_t count, F x_m, F z_m,
+                                          const Shares& shares = {}) {
   F px = x_m, pz = z_m, height, sx, sz;
   F ixx, ixz, izz;  // of the inverse of the symmetric Jacobian of p - push(p)
   for (int round = 0;; ++round) {
@@ -66,17 +80,18 @@ SHOAL_INLINE SurfacePoint<F> trochoids_at(const TrochoidWave* waves, std::size_t
     height = sx = sz = F(0.0f);
     for (std::size_t i = 0; i < count; ++i) {
       const TrochoidWave& w = waves[i];
+      if (shares.template leave_out<F>(w)) continue;
       F sine, cosine;
       sincos_turns(px * F(w.turns_x_per_m) + pz * F(w.turns_z_per_m) + F(w.phase_turns), sine, cosine);
       const float kx = 6.28318531f * w.turns_x_per_m, kz = 6.28318531f * w.turns_z_per_m;
-      off_x = off_x + F(w.push_x_m) * sine;
-      off_z = off_z + F(w.push_z_m) * sine;
-      jxx = jxx - F(w.push_x_m * kx) * cosine;
-      jxz = jxz - F(w.push_x_m * kz) * cosine;
-      jzz = jzz - F(w.push_z_m * kz) * cosine;
-      height = height + F(w.amplitude_m) * cosine;
-      sx = sx - F(w.amplitude_m * kx) * sine;
-      sz = sz - F(w.amplitude_m * kz) * sine;
+      off_x = off_x + shares.template of<F>(w, w.push_x_m) * sine;
+      off_z = off_z + shares.template of<F>(w, w.push_z_m) * sine;
+      jxx = jxx - shares.template of<F>(w, w.push_x_m * kx) * cosine;
+      jxz = jxz - shares.template of<F>(w, w.push_x_m * kz) * cosine;
+      jzz = jzz - shares.template of<F>(w, w.push_z_m * kz) * cosine;
+      height = height + shares.template of<F>(w, w.amplitude_m) * cosine;
+      sx = sx - shares.template of<F>(w, w.amplitude_m * kx) * sine;
+      sz = sz - shares.template of<F>(w, w.amplitude_m * kz) * sine;
     }
     const F inverse = F(1.0f) / (jxx * jzz - jxz * jxz);
     ixx = jzz * inverse;

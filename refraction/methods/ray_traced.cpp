@@ -40,7 +40,9 @@ struct Path {
   int level = 1;                 // 1: from the eye
   std::int32_t medium = kAir;    // the body of water that they are in
   std::int32_t from = kNowhere;  // the body that they start on: if its surface is a plane they do not meet it again
-  Vec3<WideF> lift;              // to where they start on that one's side, if it is displaced
+  // What they see where they leave the scene: the background along them, or, mirrored by filtered water, this.
+  const Vec3<WideF>* seen_beyond = nullptr;
+  Vec3<WideF> lift;  // to where they start on that one's side, if it is displaced
   // Of the water pixels' hit buffers, at the pixel's centre: what these lanes meet is what the pixel shows.
   WideM shows;
   HitKind shown_as = HitKind::kSurface;
@@ -193,16 +195,27 @@ class Tracer {
           path.level == 1 ? WideF(shade_detail::kFarAway_m) : WideF(medium->body->depth_m) / max(descent, WideF(1e-3f));
       weight = weight * absorbed(*medium->body, path_m);
     }
-    add(weight * path.clear, background_radiance<WideF>(f.scene->lighting.background, direction), gone);
+    add(weight * path.clear, beyond(path, direction), gone);
+  }
+
+  Vec3<WideF> beyond(const Path& path, Vec3<WideF> direction) const {
+    return path.seen_beyond != nullptr ? *path.seen_beyond
+                                       : background_radiance<WideF>(f.scene->lighting.background, direction);
   }
 
   // One side of one body's surface.
   void interface(const Path& path, std::int32_t index, WideF t, bool from_below, WideM lanes) {
     const WaterPass& water = f.water[static_cast<std::size_t>(index)];
-    const WaterSide side = water_side(*water.body, water.surface, from_below);
+    WaterSide side = water_side(*water.body, water.surface, from_below);
+    // Waves are filtered for the eye's rays; those that come later meet them as they are.
+    if (path.level == 1) side.pixel = filtering_pixel(water);
     const bool displaced = is_displaced(*water.body, water.surface);
-    const ExactRay<WideF> at =
-        displaced ? displaced_ray(*water.body, *water.surface, path.ray, t) : exact_ray(side, path.ray);
+    ExactRay<WideF> at =
+        displaced ? displaced_ray(*water.body, *water.surface, path.ray, t, side.pixel) : exact_ray(side, path.ray);
+    Vec3<WideF> mirrored_background;
+    if (side.pixel != nullptr)
+      mirrored_background =
+          mirror_roughly<WideF>(f.scene->lighting.background, *water.body, displaced, at.reflected, at);
     const RayDifferential<WideF> crossing = at_crossing(path.ray, path.differential, at);
     Path next;
     next.weight = path.weight;
@@ -234,6 +247,7 @@ class Tracer {
     }
     if (f.method_option[kReflection] != 0.0f) {
       next.ray = {at.crossing_world, at.reflected};
+      if (side.pixel != nullptr && !from_below) next.seen_beyond = &mirrored_background;
       next.lift = lift;
       next.differential = reflected_differential(crossing, at);
       next.weight = weight * at.reflectance;
@@ -256,9 +270,7 @@ class Tracer {
     WideM on = next.lanes & (brings >= WideF(f.method_option[kWeight]));
     if (too_deep || !sees_scene) on = mask_from_bits(0);
     const WideM cut = next.lanes & !on;
-    if (any(cut))
-      add(next.weight * next.clear, background_radiance<WideF>(f.scene->lighting.background, next.ray.direction_world),
-          cut);
+    if (any(cut)) add(next.weight * next.clear, beyond(next, next.ray.direction_world), cut);
     if (none(on)) return;
     next.lanes = on;
     count_rays(f, kind, static_cast<std::uint64_t>(__builtin_popcount(to_bits(on))));
@@ -289,7 +301,9 @@ class Tracer {
   void capture_water(const ExactRay<WideF>& at, WideM lanes) {
     const Vec3<WideF> zero = broadcast<WideF>(Vec3f{0, 0, 0});
     shade_detail::capture_surface(
-        f, block, {at.crossing_world, at.normal, zero, WideF(0.0f), WideF(0.0f), WideF(0.0f), zero}, lanes);
+        f, block,
+        {at.crossing_world, at.normal, zero, WideF(0.0f), WideF(0.0f), roughness_of_waves(at.slope_variance), zero},
+        lanes);
     shade_detail::capture_hits(f, block, zero, zero, WideI(kNoId), HitKind::kSky, lanes);
   }
 

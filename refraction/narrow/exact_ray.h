@@ -5,8 +5,8 @@
 #include "raster/ray_triangle.h"
 #include "refraction/broad/broad_phase.h"
 #include "refraction/narrow/displaced_surface.h"
+#include "water/filter_surface.h"
 #include "water/optics.h"
-#include "water/surface.h"
 #include "water/valid_normal.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
@@ -20,6 +20,8 @@ struct WaterSide {
   const WaterBody* body = nullptr;
   const WaterSurface* surface = nullptr;
   float t_near = 0;  // displaced water is met from there on, in the ray's lengths
+  // Of the eye's rays, whose waves are filtered over the pixel: their differential. Null: waves as they are.
+  const RayDifferential<float>* pixel = nullptr;
 };
 SHOAL_INLINE WaterSide eye_side(const BroadPhase& bp) {
   return {bp.plane_origin, -bp.far_normal, bp.eye_below ? bp.path.ior : 1.0f / bp.path.ior};
@@ -36,6 +38,8 @@ struct ExactRay {
   Vec3<F> incident;       // unit, the view ray's direction
   Vec3<F> plane_normal;   // unit, on the ray's side
   Vec3<F> normal;         // the surface's, unit, against the ray
+  Vec3<F> wave_normal;    // the same before it was bent for the plane
+  F slope_variance;       // of waves that the pixel's footprint hides (water/filter_surface.h), else 0
   F height_m;             // of the surface over the plane, along the body's normal: of moving water, else 0
   F cos_incident;         // >= 0
   F cos_transmitted;      // >= 0; 0 where totally reflected
@@ -47,17 +51,51 @@ struct ExactRay {
   MaskOf<F> transmitted;  // not totally reflected
 };
 
+// The pixel's footprint on a body's plane, along its axes: as where the ray meets the plane, however the waves lie
+// there. Rays along the plane have a long one, but a finite one.
+//   incident  unit;  t  in lengths of the ray's direction
+template <class F>
+SHOAL_INLINE Footprint<F> pixel_footprint(const WaterBody& body, const RayDifferential<float>& pixel, Vec3<F> incident,
+                                          F t) {
+  const Vec3<F> axis_x = broadcast<F>(body.axis_x), axis_z = broadcast<F>(body.axis_z);
+  const Vec3<F> up = broadcast<F>(body.normal);
+  const F fall = dot(incident, up);
+  const F inv_fall = F(1.0f) / select(abs(fall) > F(1e-6f), fall, F(1e-6f));
+  const auto side = [&](Vec3f d_origin, Vec3f d_direction, F& x, F& z) SHOAL_LAMBDA {
+    const Vec3<F> moved = broadcast<F>(d_origin) + broadcast<F>(d_direction) * t;
+    const Vec3<F> on_plane = moved - incident * (dot(moved, up) * inv_fall);
+    constexpr float kEndless_m = 1e6f;
+    x = clamp(dot(on_plane, axis_x), F(-kEndless_m), F(kEndless_m));
+    z = clamp(dot(on_plane, axis_z), F(-kEndless_m), F(kEndless_m));
+  };
+  Footprint<F> p;
+  side(pixel.origin_dx, pixel.direction_dx, p.ax, p.az);
+  side(pixel.origin_dy, pixel.direction_dy, p.bx, p.bz);
+  return p;
+}
+
+// The waves at a crossing (incident, t, crossing_world): as they are, or as the eye's pixel sees them.
+template <class F>
+SHOAL_INLINE FilteredPoint<F> waves_at(const WaterBody& body, const WaterSurface& surface,
+                                       const RayDifferential<float>* pixel, const ExactRay<F>& at) {
+  const Vec3<F> p = on_body(body, at.crossing_world);
+  if (pixel == nullptr) return {surface_at<F>(surface, p.x, p.z), F(0.0f)};
+  return filtered_surface_at<F>(surface, p.x, p.z, pixel_footprint(body, *pixel, at.incident, at.t));
+}
+
 // The waves' normal at the crossing, bent to one that the plane can bear (water/valid_normal.h).
 template <class F>
 SHOAL_INLINE void bend_normal(const WaterSide& side, ExactRay<F>& out) {
   const WaterBody& body = *side.body;
   const Vec3<F> axis_x = broadcast<F>(body.axis_x), axis_z = broadcast<F>(body.axis_z);
-  const Vec3<F> from_origin = out.crossing_world - broadcast<F>(body.origin);
-  const SurfacePoint<F> at = surface_at<F>(*side.surface, dot(from_origin, axis_x), dot(from_origin, axis_z));
+  const FilteredPoint<F> waves = waves_at(body, *side.surface, side.pixel, out);
+  const SurfacePoint<F>& at = waves.mean;
   const Vec3<F> up = surface_normal<F>(axis_x, broadcast<F>(body.normal), axis_z, at.slope_x, at.slope_z);
   const bool from_above = dot(side.normal, body.normal) > 0.0f;
   out.height_m = at.height_m;
-  out.normal = valid_normal<F>(out.incident, out.plane_normal, from_above ? up : -up, out.eta);
+  out.slope_variance = waves.slope_variance;
+  out.wave_normal = from_above ? up : -up;
+  out.normal = valid_normal<F>(out.incident, out.plane_normal, out.wave_normal, out.eta);
 }
 
 // From a ray that meets the surface with a normal (incident, normal, eta) to the rays that go on, and their shares.
@@ -75,10 +113,12 @@ SHOAL_INLINE void go_on_from(ExactRay<F>& out) {
 // A ray at a point where it meets the displaced surface of a body, from the side that it meets; its true normal, not
 // bent.
 //
-//   t  meet_displaced; where infinite, the ray does not cross
+//   t      meet_displaced; where infinite, the ray does not cross
+//   pixel  of an eye's ray, to filter waves over; where the filtered normal faces away from the ray, its own stays
 // Returns all of ExactRay, with the surface's tangent plane for the plane.
 template <class F>
-SHOAL_INLINE ExactRay<F> displaced_ray(const WaterBody& body, const WaterSurface& surface, const Ray<F>& ray, F t) {
+SHOAL_INLINE ExactRay<F> displaced_ray(const WaterBody& body, const WaterSurface& surface, const Ray<F>& ray, F t,
+                                       const RayDifferential<float>* pixel = nullptr) {
   ExactRay<F> out;
   out.crosses = t < F(3e38f);
   out.t = select(out.crosses, t, F(0.0f));
@@ -86,10 +126,21 @@ SHOAL_INLINE ExactRay<F> displaced_ray(const WaterBody& body, const WaterSurface
   out.incident = normalize(ray.direction_world);
   const Vec3<F> p = on_body(body, out.crossing_world);
   const SurfacePoint<F> at = surface_at<F>(surface, p.x, p.z);
-  const Vec3<F> up = surface_normal<F>(broadcast<F>(body.axis_x), broadcast<F>(body.normal), broadcast<F>(body.axis_z),
-                                       at.slope_x, at.slope_z);
+  const auto normal_of = [&](const SurfacePoint<F>& s) SHOAL_LAMBDA {
+    return surface_normal<F>(broadcast<F>(body.axis_x), broadcast<F>(body.normal), broadcast<F>(body.axis_z), s.slope_x,
+                             s.slope_z);
+  };
+  Vec3<F> up = normal_of(at);
   const MaskOf<F> below = dot(ray.direction_world, up) > F(0.0f);
-  out.normal = out.plane_normal = select<F>(below, -up, up);
+  out.slope_variance = F(0.0f);
+  if (pixel != nullptr) {
+    const FilteredPoint<F> waves = waves_at(body, surface, pixel, out);
+    const Vec3<F> mean = normal_of(waves.mean);
+    const MaskOf<F> faces = (dot(ray.direction_world, mean) > F(0.0f)) ^ !below;
+    up = select<F>(faces, mean, up);
+    out.slope_variance = waves.slope_variance;
+  }
+  out.wave_normal = out.normal = out.plane_normal = select<F>(below, -up, up);
   out.height_m = at.height_m;
   out.eta = select(below, F(body.ior), F(1.0f / body.ior));
   go_on_from(out);
@@ -99,7 +150,7 @@ SHOAL_INLINE ExactRay<F> displaced_ray(const WaterBody& body, const WaterSurface
 template <class F>
 __attribute__((noinline)) inline ExactRay<F> displaced_ray(const WaterSide& side, const Ray<F>& ray) {
   const F t = meet_displaced(*side.body, *side.surface, ray, F(side.t_near), F(0.0f) == F(0.0f));
-  return displaced_ray(*side.body, *side.surface, ray, t);
+  return displaced_ray(*side.body, *side.surface, ray, t, side.pixel);
 }
 
 // Follows a ray to the plane of the water, or to its displaced surface.
@@ -123,8 +174,8 @@ SHOAL_INLINE ExactRay<F> exact_ray(const WaterSide& side, Ray<F> ray) {
   out.t = select(out.crosses, t, F(0.0f));
   out.crossing_world = ray.origin_world + ray.direction_world * out.t;
   out.incident = normalize(ray.direction_world);
-  out.plane_normal = out.normal = n;
-  out.height_m = F(0.0f);
+  out.plane_normal = out.normal = out.wave_normal = n;
+  out.slope_variance = out.height_m = F(0.0f);
   out.eta = F(side.eta);
   if (side.surface != nullptr) bend_normal(side, out);
   go_on_from(out);

@@ -29,6 +29,7 @@ void set_surface(RenderScene& scene, SurfaceKind kind, float slope, WaterGeometr
     body.surface.kind = kind;
     body.surface.slope = slope;
     body.surface.geometry = geometry;
+    body.surface.filter = WaveFilter::kNone;  // as the oracle sees them
   }
 }
 

@@ -6,6 +6,7 @@
 #include "../core/isa_case.h"
 #include "core/digest.h"
 #include "surface_cases.h"
+#include "water/filter_surface.h"
 #include "water/intersect_surface.h"
 #include "water/surface.h"
 #include "water/valid_normal.h"
@@ -38,6 +39,46 @@ SHOAL_ISA_CASE(lanes_equal_scalars, "surfaces have the same bits in lanes as alo
         REQUIRE(as_int(wide[0][i]) == as_int(one.height_m));
         REQUIRE(as_int(wide[1][i]) == as_int(one.slope_x));
         REQUIRE(as_int(wide[2][i]) == as_int(one.slope_z));
+      }
+    }
+  }
+}
+
+SHOAL_ISA_CASE(filtered_lanes_equal, "filtered surfaces have the same bits in lanes as alone") {
+  for (const auto& c : surface_cases::all()) {
+    CAPTURE(c.name);
+    const WaterSurface surface = prepare_surface(c.settings, 2.25, kBody);
+    std::mt19937 random(17);
+    const auto within = [&](float size) {
+      return static_cast<float>(static_cast<std::int32_t>(random()) >> 8) * 0x1p-23f * size;
+    };
+    for (int block = 0; block < 200; ++block) {
+      alignas(64) float in[6][16], wide[4][16];
+      // From all lanes near to all far, and mixed.
+      for (int i = 0; i < 16; ++i) {
+        const float size = block % 4 == 0   ? 0.02f
+                           : block % 4 == 1 ? 20.0f
+                           : block % 4 == 2 ? 0.5f
+                                            : 1.5f * within(1.0f);
+        in[0][i] = within(15.0f), in[1][i] = within(15.0f);
+        for (int k = 2; k < 6; ++k) in[k][i] = within(size);
+      }
+      if (block == 3) in[2][3] = 1e6f, in[4][3] = -1e6f;
+      const auto load = [&](int k) { return WideF::load(in[k]); };
+      const FilteredPoint<WideF> got =
+          filtered_surface_at(surface, load(0), load(1), Footprint<WideF>{load(2), load(3), load(4), load(5)});
+      got.mean.height_m.store(wide[0]);
+      got.mean.slope_x.store(wide[1]);
+      got.mean.slope_z.store(wide[2]);
+      got.slope_variance.store(wide[3]);
+      for (int i = 0; i < 16; ++i) {
+        const FilteredPoint<float> one =
+            filtered_surface_at(surface, in[0][i], in[1][i], Footprint<float>{in[2][i], in[3][i], in[4][i], in[5][i]});
+        REQUIRE(as_int(wide[0][i]) == as_int(one.mean.height_m));
+        REQUIRE(as_int(wide[1][i]) == as_int(one.mean.slope_x));
+        REQUIRE(as_int(wide[2][i]) == as_int(one.mean.slope_z));
+        REQUIRE(as_int(wide[3][i]) == as_int(one.slope_variance));
+        REQUIRE(one.slope_variance >= 0);
       }
     }
   }
