@@ -105,7 +105,8 @@ SHOAL_INLINE void add_spline_filtered(const WaterSurface& surface, const SplineG
   F variance(0.0f), last_weight(0.0f), reached(1.0f), last_covariance(0.0f);
   for (std::int32_t level = 0; level <= grid.coarser_count; ++level) {
     const SplineGrid& here = level == 0 ? grid : coarser[level - 1];
-    const float next_m2 = level == grid.coarser_count ? 4.0f * here.square_m2 : coarser[level].square_m2;
+    const float last_m2 = grid.coarser_count == 0 ? grid.gone_m2 : 4.0f * here.square_m2;
+    const float next_m2 = level == grid.coarser_count ? last_m2 : coarser[level].square_m2;
     const F past = clamp((square_m2 - F(here.square_m2)) * F(1.0f / (next_m2 - here.square_m2)), F(0.0f), F(1.0f));
     const F weight = reached - past;
     variance =

@@ -175,16 +175,32 @@ void RippleFilter::go_to(std::int64_t step) {
   }
 }
 
+// Of the spline at its inner knots, along one axis without the smoothing across it.
+static float mean_squared_slope(const SplineGrid& grid, const float* values) {
+  double sum = 0;
+  for (int j = 1; j + 1 < grid.count_z; ++j)
+    for (int i = 1; i + 1 < grid.count_x; ++i) {
+      const float* at = values + grid.first + j * grid.count_x + i;
+      const double along_x = 0.5 * (static_cast<double>(at[1]) - static_cast<double>(at[-1]));
+      const double along_z = 0.5 * (static_cast<double>(at[grid.count_x]) - static_cast<double>(at[-grid.count_x]));
+      sum += along_x * along_x + along_z * along_z;
+    }
+  const double knots = std::max(1.0, (grid.count_x - 2.0) * (grid.count_z - 2.0));
+  return static_cast<float>(sum / knots * static_cast<double>(grid.cells_per_m) *
+                            static_cast<double>(grid.cells_per_m));
+}
+
 void RippleFilter::add_to(double time_s, float amplitude_m, WaterSurface& surface) {
   const double steps = time_s / shape_.step_s, whole = std::floor(steps);
   const float part = static_cast<float>(steps - whole);
-  const SplineGrid grid = {static_cast<std::int32_t>(surface.grid_values.size()),
-                           shape_.count_x,
-                           shape_.count_z,
-                           0,
-                           static_cast<float>(static_cast<double>(extent_.min_x_m) + 0.5 * shape_.cell_m),
-                           static_cast<float>(static_cast<double>(extent_.min_z_m) + 0.5 * shape_.cell_m),
-                           static_cast<float>(1.0 / shape_.cell_m)};
+  SplineGrid grid{};
+  grid.first = static_cast<std::int32_t>(surface.grid_values.size());
+  grid.count_x = shape_.count_x, grid.count_z = shape_.count_z;
+  grid.min_x_m = static_cast<float>(static_cast<double>(extent_.min_x_m) + 0.5 * shape_.cell_m);
+  grid.min_z_m = static_cast<float>(static_cast<double>(extent_.min_z_m) + 0.5 * shape_.cell_m);
+  grid.cells_per_m = static_cast<float>(1.0 / shape_.cell_m);
+  // Over a drop's wave length its waves average out.
+  grid.gone_m2 = static_cast<float>(4.0 * shape_.radius_m * shape_.radius_m);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     go_to(static_cast<std::int64_t>(whole));
@@ -195,6 +211,7 @@ void RippleFilter::add_to(double time_s, float amplitude_m, WaterSurface& surfac
       }
     }
   }
+  grid.slope_variance = mean_squared_slope(grid, surface.grid_values.data());
   surface.spline_grids.push() = grid;
   surface.reach_m = std::min(surface.reach_m, 0x1p+28f / grid.cells_per_m);
   surface_parts::bound_spline(grid, surface.grid_values.data(), surface);
