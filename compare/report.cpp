@@ -105,6 +105,32 @@ std::string column_notes(const Report& report) {
   return out + "</dl></details>\n";
 }
 
+std::string method_notes(const Report& report) {
+  std::string out = "<details open><summary>What the methods are</summary><dl>\n";
+  const auto note = [&](const ReportMethod& m) {
+    out += "<dt>" + code(m.name) + "</dt><dd>" + html_escape(m.description) + "</dd>\n";
+  };
+  for (const ReportMethod& method : report.methods) note(method);
+  note(report.reference);
+  return out + "</dl></details>\n";
+}
+
+// What the water does, as the settings say it.
+std::string water_in_words(const Report& report) {
+  const auto setting = [&](const std::string& key) {
+    for (const auto& [name, value] : report.settings)
+      if (name == key) return value;
+    return std::string();
+  };
+  std::string surface = setting("surface");
+  if (surface.empty()) return "";
+  surface.erase(std::remove(surface.begin(), surface.end(), '"'), surface.end());
+  if (surface == "flat") return " The water is flat.";
+  const std::string slope = setting("slope");
+  return " The water has waves: " + code(surface) +
+         (slope.empty() || slope == "null" ? "" : ", RMS slope " + html_escape(slope)) + ".";
+}
+
 // In words: which is closest, which is fastest.
 std::string verdict(const Report& report) {
   if (report.methods.size() < 2) return "";
@@ -123,15 +149,18 @@ std::string verdict(const Report& report) {
 }
 
 std::string introduction(const Report& report) {
-  std::string out = "<h1>How right is the water? " + html_escape(report.scene) +
-                    "</h1>\n<p>Every method draws the same frame of " + code(report.scene) + " (camera " +
+  std::string out = "<h1>How right is the water in " + html_escape(report.scene) +
+                    "?</h1>\n<p>Every method draws the same frame of " + code(report.scene) + " (camera " +
                     code(report.camera) + ", " + std::to_string(report.width_px) + " x " +
                     std::to_string(report.height_px) + " pixels, " + std::to_string(report.water_pixels) +
                     " of them water) and is measured by " + code(report.reference.name) + ", the reference";
   out += report.reference_is_truth
-             ? ": rays followed through the water one by one. Less is better, except for PSNR.</p>\n"
+             ? ": rays followed through the water one by one." + water_in_words(report) +
+                   " In the table less is better, except for PSNR; the best of a column is blue.</p>\n"
              : ". That is a method like the others, not a ray-traced truth: the numbers say how far the methods are "
-               "apart, not how wrong each is. Less is nearer, except for PSNR.</p>\n";
+               "apart, not how wrong each is." +
+                   water_in_words(report) +
+                   " In the table less is nearer, except for PSNR; the nearest of a column is blue.</p>\n";
   return out;
 }
 
@@ -317,7 +346,7 @@ std::string report_html(const Report& report) {
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
       "content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n<title>Shoal: " +
       html_escape(report.scene) + "</title>\n<style>\n" + kReportStyle + "</style>\n</head>\n<body>\n<main>\n";
-  page += introduction(report) + verdict(report) + table(report) + column_notes(report);
+  page += introduction(report) + verdict(report) + table(report) + method_notes(report) + column_notes(report);
   page += slider(report) + quality_against_time(report);
   if (report.sweep) page += sweep_section(*report.sweep);
   page += histograms(report) + gallery(report) + reproduction(report);
