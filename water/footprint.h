@@ -53,7 +53,7 @@ SHOAL_INLINE F isotropic_weight(F cycles2) {
 }
 
 // Gradient noise: the factor by which it comes nearest to its mean over a square, as that of an isotropic wave of so
-// many cycles a cell. Error: 0.07 of the best factor for a square, 0.2 for a line (test_filter_surface.cpp).
+// many cycles a cell. Error: 0.1 of the best factor for a square, 0.2 for a line (test_filter_surface.cpp).
 inline constexpr float kNoiseCycles2 = 0.78f * 0.78f;
 
 }  // namespace shoal::inline SHOAL_ISA_NS

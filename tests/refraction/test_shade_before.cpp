@@ -187,7 +187,7 @@ TEST_CASE("shade before: the mask of places outside of the frame") {
     const std::size_t x = i % 320, y = i / 320;
     (x < 4 || x >= 316 || y < 4 || y >= 176 ? edge : middle) += little[i];
   }
-  CHECK(edge > 20);
+  CHECK(edge > 10);
   CHECK(middle == 0);
   const std::vector<std::uint32_t> none = outside("distort", {{"strength", "0"}});
   CHECK(std::count(none.begin(), none.end(), 1u) == 0);
