@@ -15,7 +15,8 @@ inline constexpr float kEndless = 3e38f;
 //   t, id         what each is known to meet: only what is nearer is looked for. kEndless, kNoId: nothing
 // Returns its id, of triangles equally far the smallest; kNoId where there is none, anything in the other lanes.
 // Source: Kay and Kajiya 1986 (slabs); Wald et al. 2008 (one ray, sixteen children at once).
-// Differs: see docs/decisions/0008: Embree answers the ray tracer; its answers at edges differ from machine to machine.
+// Differs: Embree, which the ray tracer asks, answers rays at edges differently from machine to machine
+//         (docs/decisions/0009).
 // Error: a ray within 1e-5 of a triangle's sides beyond it (in barycentrics) meets it
 //        (tests/refraction/test_triangle_tree.cpp, against all triangles in double).
 WideI nearest_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideF t,
