@@ -82,6 +82,7 @@ void check_same(const SurfaceSettings& a, const SurfaceSettings& b) {
   CHECK(a.seed == b.seed);
   CHECK(a.fade == b.fade);
   CHECK(a.falloff == b.falloff);
+  CHECK(a.filter == b.filter);
   REQUIRE(a.drops.size() == b.drops.size());
   for (std::size_t i = 0; i < a.drops.size(); ++i) {
     CHECK(same_bits(a.drops[i].x_m, b.drops[i].x_m));
@@ -277,6 +278,7 @@ Scene full_scene() {
   surface.parts[0].fade = NoiseFade::kCubic;
   surface.parts[1].kind = SurfaceKind::kRipples;
   surface.parts[1].falloff = RippleFalloff::kExponential;
+  surface.parts[1].filter = WaveFilter::kNone;
   surface.parts[1].drops = {{1.1f, -2, 0.3f}};
 
   scene.nodes.resize(7);
