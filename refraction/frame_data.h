@@ -133,11 +133,11 @@ struct WaterPass {
   Plane keep;                             // world clip plane: what the pass draws
   Frustum frustum;                        // of the region's bounds
   PassSettings pass;
-  float near_m = 0;        // of the camera: displaced water that is nearer is not met
+  float near_m = 0;                // of the camera: displaced water that is nearer is not met
   RayDifferential<float> pixel{};  // of the camera's rays
-  bool mirrored = false;   // this is the mirrored pass of the two
-  bool looks_far = false;  // the narrow phase may look anywhere in the frame
-  bool mirrors = false;    // the surface shows the scene on the eye's own side, not the background alone
+  bool mirrored = false;           // this is the mirrored pass of the two
+  bool looks_far = false;          // the narrow phase may look anywhere in the frame
+  bool mirrors = false;            // the surface shows the scene on the eye's own side, not the background alone
 };
 
 // Does the surface mirror the scene on the side that a ray comes from, whatever --reflections says? It does from within
@@ -188,11 +188,11 @@ struct FrameData {
   Blended blended;
   VisibilityBuffer direct, refracted, mirrored;
   LayerEdges refracted_edges, mirrored_edges;  // filled where waves bend rays
-  std::vector<std::uint8_t> region_of_body;  // [regions] 64-pixel cells that show this pass's body, or touch such
-  std::vector<std::uint8_t> layer_regions;   // [layers' regions] that are drawn
-  std::vector<std::uint8_t> tile_active;     // [layers' tiles] that those touch
-  std::vector<WaterPass> water;              // one a body, whether it shows or not
-  LitPoints layer;                           // the refracted layer, before absorption
+  std::vector<std::uint8_t> region_of_body;    // [regions] 64-pixel cells that show this pass's body, or touch such
+  std::vector<std::uint8_t> layer_regions;     // [layers' regions] that are drawn
+  std::vector<std::uint8_t> tile_active;       // [layers' tiles] that those touch
+  std::vector<WaterPass> water;                // one a body, whether it shows or not
+  LitPoints layer;                             // the refracted layer, before absorption
   LitPoints fetched;  // what each water pixel took from it, absorbed; the points only where they are captured
   HitBuffers hits;
   HitPoints hit_points;

@@ -15,6 +15,9 @@ SHOAL_INLINE F roughness_of_waves(F slope_variance) {
   return min(sqrt(sqrt(slope_variance)), F(1.0f));
 }
 
+// Slopes of a thousandth: a mirrored ray moves by less than half of the sun's width.
+inline constexpr float kLeastVariance = 1e-6f;
+
 namespace rough_mirror_detail {
 
 // Gauss and Hermite's five points, for a normal distribution of variance 1.
@@ -54,7 +57,7 @@ SHOAL_INLINE F blurred_sun(const Spread<F>& s, F chord2) {
 
 // The mean, over the slopes that a pixel hides, of reflectance and of the background that is mirrored.
 //
-//   at         a ray at the water; where its slope_variance is 0 nothing changes
+//   at         a ray at the water; where its slope_variance is at most kLeastVariance nothing changes
 //   displaced  the surface is the height field: slopes count as the ray sees them, and are not bent for a plane
 //   mirrored   unit; the ray's own mirrored direction, for those lanes
 // Returns what is mirrored of the background, weighted by reflectance; at.reflectance becomes the mean (1 where totally
@@ -72,7 +75,7 @@ template <class F>
 __attribute__((noinline)) Vec3<F> mirror_roughly(const Background& background, const WaterBody& body, bool displaced,
                                                  Vec3<F> mirrored, ExactRay<F>& at) {
   using namespace rough_mirror_detail;
-  const MaskOf<F> rough = at.slope_variance > F(0.0f);
+  const MaskOf<F> rough = at.slope_variance > F(kLeastVariance);
   const Vec3<F> sharp = background_radiance<F>(background, mirrored);
   if (none(rough)) return sharp;
 
