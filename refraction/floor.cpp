@@ -58,7 +58,8 @@ std::vector<LevelTriangle> level_triangles(const RenderScene& scene, const Water
     }
     t.height_m = 0.5f * (lo + hi);
     t.area = area_of(t.triangle);
-    if (!(hi - lo <= kLevel_m && hi <= -kUnder_m && bounds_of(t.triangle).touch(outline))) continue;
+    if (!(hi - lo <= kLevel_m && hi <= -kUnder_m && lo >= -body.depth_m - kSame_m)) continue;
+    if (!bounds_of(t.triangle).touch(outline)) continue;
     if (t.area < 0 && scene.materials.materials[drawable.material].double_sided) {
       std::swap(t.triangle.x[1], t.triangle.x[2]), std::swap(t.triangle.z[1], t.triangle.z[2]);
       t.area = -t.area;

@@ -27,9 +27,9 @@ struct Floor {
 };
 
 // Finds a body's floor: of every drawn, opaque drawable the triangles that are level (their corners' heights within
-// 1e-4 m), at least 1 mm under the plane, in the outline's bounds and seen from above; those of one drawable within 1
-// mm of one height are a floor, and the greatest by area is the one, if it is as large as half of the outline. Throws
-// NotApplicable where there is none.
+// 1e-4 m), at least 1 mm under the plane and not below the body's depth, in the outline's bounds and seen from above;
+// those of one drawable within 1 mm of one height are a floor, and the greatest by area is the one, if it is as large
+// as half of the outline. Throws NotApplicable where there is none.
 Floor find_floor(const RenderScene& scene, const WaterBody& body);
 
 }  // namespace shoal

@@ -132,6 +132,13 @@ TEST_CASE("block-grid finds box's floor, and refuses a scene without one", "[ref
     CHECK(hi >= static_cast<double>(x) - 1e-6);
   }
 
+  // The floor and the wall of the tank's room, level and larger, are no part of its water: its sand is uneven, and what
+  // its front looks at is its own back.
+  const RenderScene tank = built_in("tank", 2000);
+  REQUIRE(tank.waters.size() == 2);
+  CHECK_THROWS_AS(find_floor(tank, tank.waters[0]), NotApplicable);
+  CHECK(find_floor(tank, tank.waters[1]).height_m == Approx(-tank.waters[1].depth_m));
+
   const RenderScene pool = built_in("pool", 2000);  // its floor slopes
   FrameSettings settings;
   settings.method = "block-grid";
