@@ -24,11 +24,13 @@
 namespace shoal::inline SHOAL_ISA_NS {
 
 // The option of a method with a map of its own, whose source may leave edges straight.
-inline constexpr MethodOption kTessellateOption{"tessellate", "true", "split edges that the broad phase bends",
-                                                MethodOption::Kind::kTruth, 0, 1};
+inline constexpr MethodOption kTessellateOption{
+    "tessellate", "true", "split edges that the broad phase bends", MethodOption::Kind::kTruth, 0, 1};
 
 template <class M>
-concept HasOwnMap = requires(const FrameData& f, const WaterPass& water) { M::own_map(f, water); };
+concept HasOwnMap = requires(const FrameData& f, const WaterPass& water) {
+  M::own_map(f, water);
+};
 
 // What a narrow phase may know of sixteen pixels.
 struct LookUp {
