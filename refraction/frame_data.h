@@ -164,7 +164,7 @@ struct FrameData {
   GeometryView water_geometry;                     // the outlines of the bodies of water
   SunShadows shadows;                              // of the sun, which stands still as the scene does
   std::unique_ptr<RayQueries> rays;                // where the method or the shadows trace rays, else null
-  std::unique_ptr<TriangleTree> tree;              // over the scene, where waves bend rays, else null
+  std::unique_ptr<TriangleTree> tree;              // over the scene, where there is water, else null
   std::unique_ptr<DistanceFields> fields;          // of the method that has them, else null
   std::vector<Floor> floors;                       // of the bodies, for the method that knows nothing else
   float method_option[kMaxMethodOptions] = {};     // of the method, in the order of its list

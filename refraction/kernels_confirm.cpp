@@ -10,7 +10,8 @@ ConfirmedHit confirm_hit(const GeometryView& g, const VisibilityBuffer& visibili
   const WideM drawn = lanes & (own >= WideI(0)) & (own != WideI(kNoId));
   WideM missing = lanes;
   if (any(drawn)) missing = lanes & !test_triangles(g, ray, own, drawn).inside;
-  if (none(missing)) return {own, lanes};
+  if (none(missing)) return {own, lanes, mask_from_bits(0)};
+  WideM shown = drawn;
   WideI best = own;
   WideF best_t(3e38f);
   const WideI x_last(visibility.grid.width_px - 1), y_last(visibility.grid.height_px - 1);
@@ -19,14 +20,15 @@ ConfirmedHit confirm_hit(const GeometryView& g, const VisibilityBuffer& visibili
     const WideI x = x_px + WideI(i % 3 - 1), y = y_px + WideI(i / 3 - 1);
     const WideM there = missing & (x >= WideI(0)) & (x <= x_last) & (y >= WideI(0)) & (y <= y_last);
     const WideI id = gather(visibility.id.data(), pixel_slots(visibility.grid, x, y), there, WideI(kNoId));
-    const WideM candidate = there & (id >= WideI(0)) & (id != WideI(kNoId)) & (id != own) & (id != best);
+    shown = shown | (there & is_triangle(id));
+    const WideM candidate = there & is_triangle(id) & (id != own) & (id != best);
     if (none(candidate)) continue;
     const TriangleTest test = test_triangles(g, ray, id, candidate);
     const WideM better = test.inside & (test.t < best_t);
     best = select(better, id, best);
     best_t = select(better, test.t, best_t);
   }
-  return {best, (lanes & !missing) | (missing & (best_t < WideF(3e38f)))};
+  return {best, (lanes & !missing) | (missing & (best_t < WideF(3e38f))), lanes & !shown};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -7,6 +7,8 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
+static_assert(sizeof(Geometry::TriangleRecord) == 16 && sizeof(VertexRecord) == 32, "gathered by these strides");
+
 // Nodes that wait: at most fifteen a level, and no scene that fits into memory has ten levels.
 constexpr int kMostWaiting = 160;
 
@@ -34,7 +36,7 @@ class Search {
       --waiting;
       if (enters[waiting] > t) continue;
       if (nodes[waiting] < 0)
-        meet(f.tree->leaves[static_cast<std::size_t>(~nodes[waiting])]);
+        meet(static_cast<std::size_t>(~nodes[waiting]));
       else
         open(f.tree->nodes[static_cast<std::size_t>(nodes[waiting])]);
     }
@@ -74,11 +76,31 @@ class Search {
     }
   }
 
-  void meet(const TriangleTree::Leaf& leaf) {
+  void corners(std::size_t leaf, WideM there, Vec3<WideF>& p0, Vec3<WideF>& e1, Vec3<WideF>& e2) const {
+    if (leaf < f.tree->corners.size()) {
+      const TriangleTree::Corners& c = f.tree->corners[leaf];
+      p0 = {WideF::load(c.p0_x), WideF::load(c.p0_y), WideF::load(c.p0_z)};
+      e1 = {WideF::load(c.e1_x), WideF::load(c.e1_y), WideF::load(c.e1_z)};
+      e2 = {WideF::load(c.e2_x), WideF::load(c.e2_y), WideF::load(c.e2_z)};
+      return;
+    }
+    const WideI record = (WideI(f.tree->leaves[leaf].first_triangle) + lane_index()) << 2;
+    const std::int32_t* vertex_of = reinterpret_cast<const std::int32_t*>(f.geometry.triangles);
+    const float* coordinate_of = reinterpret_cast<const float*>(f.geometry.vertices);
+    const auto corner = [&](int k) SHOAL_LAMBDA {
+      const WideI at = gather(vertex_of, record + WideI(k), there, WideI(0)) << 3;
+      return Vec3<WideF>{gather(coordinate_of, at, there, WideF(0.0f)),
+                         gather(coordinate_of, at + WideI(1), there, WideF(0.0f)),
+                         gather(coordinate_of, at + WideI(2), there, WideF(0.0f))};
+    };
+    p0 = corner(0), e1 = corner(1) - p0, e2 = corner(2) - p0;
+  }
+
+  void meet(std::size_t leaf_index) {
+    const TriangleTree::Leaf& leaf = f.tree->leaves[leaf_index];
     const WideM there = lane_index() < WideI(leaf.triangle_count);
-    const Vec3<WideF> p0 = {WideF::load(leaf.p0_x), WideF::load(leaf.p0_y), WideF::load(leaf.p0_z)};
-    const Vec3<WideF> e1 = {WideF::load(leaf.e1_x), WideF::load(leaf.e1_y), WideF::load(leaf.e1_z)};
-    const Vec3<WideF> e2 = {WideF::load(leaf.e2_x), WideF::load(leaf.e2_y), WideF::load(leaf.e2_z)};
+    Vec3<WideF> p0, e1, e2;
+    corners(leaf_index, there, p0, e1, e2);
     const Ray<WideF> ray = {broadcast<WideF>(origin), broadcast<WideF>(direction)};
     const TriangleTest test = test_triangle(ray, p0, e1, e2, there);
     WideM met = test.inside & (test.t <= WideF(t));

@@ -83,7 +83,10 @@ struct Renderer::Impl {
     filter_materials();
     f.bins = make_bins(scene.geometry.chunks.size());
     f.water_bins.items.resize(scene.waters.size());
-    if (waves) f.tree = std::make_unique<TriangleTree>(), f.tree->build(scene.geometry, scene.materials);
+    if (!scene.waters.empty() && method.kernels.trace == nullptr) {
+      f.tree = std::make_unique<TriangleTree>();
+      f.tree->build(scene.geometry, scene.materials, waves);
+    }
     read_method_options(method, settings.method_options, f.method_option);
     if (method.kernels.trace != nullptr || settings.shadows == Shadows::kRays) {
       f.rays = make_ray_queries(scene, pool.threads());
@@ -142,7 +145,7 @@ struct Renderer::Impl {
       f.refracted.resize(f.layers.grid);
       f.mirrored.resize(f.layers.grid);
       f.hits.resize(f.grid);
-      if (f.tree != nullptr) f.refracted_edges.resize(f.layers.grid), f.mirrored_edges.resize(f.layers.grid);
+      if (f.layers.margin_px > 0) f.refracted_edges.resize(f.layers.grid), f.mirrored_edges.resize(f.layers.grid);
       if (method.kernels.light_layer != nullptr) f.layer.resize(f.grid), f.fetched.resize(f.grid);
     }
     if (captures()) {

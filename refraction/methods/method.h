@@ -78,8 +78,9 @@ class NarrowPhase {
     }
     const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),
                 y = WideI(block.y_px + f.layers.margin_px) + block_y();
-    const WideI id = confirm_hit(f.geometry, layer.visibility, ray, own, x, y, lanes).id;
-    store_masked(ids.data() + block.offset, id, here);
+    const ConfirmedHit hit = confirm_hit(f.geometry, layer.visibility, ray, own, x, y, lanes);
+    store_masked(ids.data() + block.offset, hit.id, here);
+    unsure.add(ray, differential, WideF(kEndless), WideI(kNoId), block.offset, lanes & !hit.held & !hit.bare);
   }
 
   FrameData& f;

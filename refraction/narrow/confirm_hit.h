@@ -39,6 +39,7 @@ SHOAL_INLINE TriangleTest test_triangles(const GeometryView& g, const Ray<WideF>
 struct ConfirmedHit {
   WideI id;
   WideM held;  // the ray does meet it
+  WideM bare;  // neither the pixel nor a neighbour shows any triangle
 };
 
 //   ray         the true ray of each lane, starting at the water

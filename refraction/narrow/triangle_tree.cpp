@@ -46,16 +46,18 @@ Box box_of(const TriangleTree::Node& node) {
   return box;
 }
 
-void fill(const Geometry& geometry, TriangleTree::Leaf& leaf) {
+TriangleTree::Corners corners_of(const Geometry& geometry, const TriangleTree::Leaf& leaf) {
+  TriangleTree::Corners to{};
   for (std::int32_t k = 0; k < leaf.triangle_count; ++k) {
     const Geometry::TriangleRecord& r = geometry.triangles[static_cast<std::size_t>(leaf.first_triangle + k)];
     const Vec3f p0 = geometry.vertices[r.vertex[0]].position_world;
     const Vec3f e1 = geometry.vertices[r.vertex[1]].position_world - p0;
     const Vec3f e2 = geometry.vertices[r.vertex[2]].position_world - p0;
-    leaf.p0_x[k] = p0.x, leaf.p0_y[k] = p0.y, leaf.p0_z[k] = p0.z;
-    leaf.e1_x[k] = e1.x, leaf.e1_y[k] = e1.y, leaf.e1_z[k] = e1.z;
-    leaf.e2_x[k] = e2.x, leaf.e2_y[k] = e2.y, leaf.e2_z[k] = e2.z;
+    to.p0_x[k] = p0.x, to.p0_y[k] = p0.y, to.p0_z[k] = p0.z;
+    to.e1_x[k] = e1.x, to.e1_y[k] = e1.y, to.e1_z[k] = e1.z;
+    to.e2_x[k] = e2.x, to.e2_y[k] = e2.y, to.e2_z[k] = e2.z;
   }
+  return to;
 }
 
 // A run of triangles and where it is.
@@ -86,7 +88,7 @@ void arrange(Place* places, std::size_t count) {
 
 }  // namespace
 
-void TriangleTree::build(const Geometry& geometry, const Materials& materials) {
+void TriangleTree::build(const Geometry& geometry, const Materials& materials, bool with_corners) {
   struct Run {
     std::int32_t first, count;
     bool one_sided, masked;
@@ -107,11 +109,10 @@ void TriangleTree::build(const Geometry& geometry, const Materials& materials) {
   leaves.clear();
   for (const Place& place : places) {
     const Run& run = runs[static_cast<std::size_t>(place.run)];
-    Leaf& leaf = leaves.push();
-    leaf = Leaf{};
-    leaf.first_triangle = run.first, leaf.triangle_count = run.count;
-    leaf.one_sided = run.one_sided, leaf.masked = run.masked;
+    leaves.push() = {run.first, run.count, run.one_sided, run.masked};
   }
+
+  corners.resize(with_corners ? leaves.size() : 0);
 
   // Sixteen at a time, level by level, up to one root.
   nodes.clear();
@@ -134,7 +135,7 @@ void TriangleTree::build(const Geometry& geometry, const Materials& materials) {
 }
 
 void TriangleTree::refit(const Geometry& geometry) {
-  for (std::size_t i = 0; i < leaves.size(); ++i) fill(geometry, leaves[i]);
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = corners_of(geometry, leaves[i]);
   // Children come before their parents. Empty places keep their inverted boxes.
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     Node& node = nodes[n];

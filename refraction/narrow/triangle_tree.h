@@ -5,7 +5,7 @@
 // children of a node, or all triangles of a leaf, at once. Which boxes there are decides only what is looked at; what
 // is found does not depend on them.
 //
-// Memory  about 45 bytes a triangle.
+// Memory  about 4 bytes a triangle, 45 with corners.
 #pragma once
 
 #include <cstdint>
@@ -24,19 +24,22 @@ struct TriangleTree {
     float max_x[kWidth], max_y[kWidth], max_z[kWidth];
     std::int32_t child[kWidth];  // a node, ~ a leaf, or kNone
   };
-  struct alignas(64) Leaf {
-    // First corners, world, and the other two less it; empty places hold points, which no ray meets.
-    float p0_x[kWidth], p0_y[kWidth], p0_z[kWidth];
-    float e1_x[kWidth], e1_y[kWidth], e1_z[kWidth];
-    float e2_x[kWidth], e2_y[kWidth], e2_z[kWidth];
+  struct Leaf {
     std::int32_t first_triangle, triangle_count;  // at most kWidth
     bool one_sided, masked;
   };
-  PodVector<Node> nodes;   // the root last; none: nothing is opaque
-  PodVector<Leaf> leaves;  // near each other as the tree has them
+  // Of a leaf's triangles: first corners, world, and the other two less it.
+  struct alignas(64) Corners {
+    float p0_x[kWidth], p0_y[kWidth], p0_z[kWidth];
+    float e1_x[kWidth], e1_y[kWidth], e1_z[kWidth];
+    float e2_x[kWidth], e2_y[kWidth], e2_z[kWidth];
+  };
+  PodVector<Node> nodes;       // the root last; none: nothing is opaque
+  PodVector<Leaf> leaves;      // near each other as the tree has them
+  PodVector<Corners> corners;  // of each, for scenes that are asked often; else empty, and read from the scene
 
   // Over all opaque chunks, masked ones with them.
-  void build(const Geometry& geometry, const Materials& materials);
+  void build(const Geometry& geometry, const Materials& materials, bool with_corners);
   // Boxes and corners anew, after vertices have moved.
   void refit(const Geometry& geometry);
 };
