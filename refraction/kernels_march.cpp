@@ -9,8 +9,8 @@ namespace {
 
 // Planes tried for one ray: under waves of slope 0.15 nearly all rays that find their triangle do so by the third.
 constexpr int kMostRounds = 4;
-// Steps on the way to it, at most: a longer way takes longer steps.
-constexpr int kMostSteps = 64;
+// Steps on the way to it, at most: more than any layer is wide.
+constexpr int kMostSteps = 1 << 15;
 // An edge is in the way where it is nearer than the ray by more than this share of the depth.
 constexpr float kInFront = 1.001f;
 
