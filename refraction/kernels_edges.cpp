@@ -8,7 +8,7 @@ namespace {
 // Depth as drawn is linear over a plane, so its second differences are 0 there; at an edge they are the step. A share
 // of the nearest depth: of perspective's depth, which goes as the inverse of the distance, the same share of the
 // distance.
-constexpr float kLeastStep = 0.003f;
+constexpr float kLeastStep = 0.001f;
 
 // A region and a pixel around it, by rows: pixel (x, y) of the region is at[y + 1][kFirst + x].
 constexpr int kFirst = 4, kRow = kRegionSize + 32;
