@@ -199,8 +199,7 @@ void RippleFilter::add_to(double time_s, float amplitude_m, WaterSurface& surfac
   grid.min_x_m = static_cast<float>(static_cast<double>(extent_.min_x_m) + 0.5 * shape_.cell_m);
   grid.min_z_m = static_cast<float>(static_cast<double>(extent_.min_z_m) + 0.5 * shape_.cell_m);
   grid.cells_per_m = static_cast<float>(1.0 / shape_.cell_m);
-  // Over a drop's wave length its waves average out.
-  grid.gone_m2 = static_cast<float>(4.0 * shape_.radius_m * shape_.radius_m);
+  grid.turns_per_m = static_cast<float>(0.5 / shape_.radius_m);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     go_to(static_cast<std::int64_t>(whole));

@@ -54,7 +54,7 @@ struct SplineGrid {
   // squared slope, and the mean product with the slopes of the next coarser grid (0: there is none).
   float square_m2, slope_variance, next_covariance;
   std::int32_t first_coarser, coarser_count;  // in WaterSurface::coarser_grids
-  float gone_m2;                              // of a grid without any: over such a square nothing is left
+  float turns_per_m;                          // of its waves, where it has none: they fade together
 };
 
 struct WaterSurface {

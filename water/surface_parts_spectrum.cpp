@@ -165,7 +165,7 @@ SplineGrid spline_of_sea(const Sea& sea, int side, double square_m2, double fine
                            0.0f,
                            static_cast<std::int32_t>(surface.coarser_grids.size()),
                            0,
-                           sea.tile_m * sea.tile_m};
+                           1.0f / sea.tile_m};
   for (const Complex& value : terms) surface.grid_values.push() = value.re;
   covariance = static_cast<float>(shared * square_amplitude);
   return grid;
