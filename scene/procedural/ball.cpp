@@ -10,7 +10,7 @@
 namespace shoal {
 namespace {
 
-enum Mat : int { kFloor, kWall, kRim, kTerrace, kLawn, kGardenWall, kBall, kKnot, kMatCount };
+enum Mat : std::uint8_t { kFloor, kWall, kRim, kTerrace, kLawn, kGardenWall, kBall, kKnot, kMatCount };
 
 // Metres; the water is y = 0.
 constexpr float kHalf = 4.0f, kDepth = 1.3f, kRimTop = 0.16f, kRimOut = 4.45f, kTerraceY = 0.06f, kTerraceOut = 10.0f;
