@@ -23,8 +23,8 @@ SHOAL_INLINE F triangle_distance2(Vec3<F> p, Vec3<F> a, Vec3<F> b, Vec3<F> c) {
   const Vec3<F> ab = b - a, bc = c - b, ca = a - c, pa = p - a, pb = p - b, pc = p - c;
   const Vec3<F> n = cross(ab, -ca);
   const F area2 = dot(n, n), height = dot(n, pa);
-  const MaskOf<F> over = (area2 > F(0.0f)) & (dot(cross(n, ab), pa) >= F(0.0f)) & (dot(cross(n, bc), pb) >= F(0.0f)) &
-                         (dot(cross(n, ca), pc) >= F(0.0f));
+  const F in_ab = dot(cross(n, ab), pa), in_bc = dot(cross(n, bc), pb), in_ca = dot(cross(n, ca), pc);
+  const MaskOf<F> over = (area2 > F(0.0f)) & (in_ab >= F(0.0f)) & (in_bc >= F(0.0f)) & (in_ca >= F(0.0f));
   const F edges = min(min(segment_distance2(pa, ab), segment_distance2(pb, bc)), segment_distance2(pc, ca));
   return select(over, min(height * height / select(area2 > F(0.0f), area2, F(1.0f)), edges), edges);
 }

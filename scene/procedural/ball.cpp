@@ -1,6 +1,7 @@
 // `ball` and `knot`: the objects over water of Li et al.'s Table 1, a ball of 39936 triangles, and in the place of
 // their dragon of 2.4 million a torus knot set with studs. Both lie in the same basin of few triangles.
 #include <cmath>
+#include <cstdint>
 
 #include "scene/procedural/mesh_builder.h"
 #include "scene/procedural/scenes.h"

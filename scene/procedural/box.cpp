@@ -1,4 +1,6 @@
 // `box`: a small basin for tests. Few triangles, every case: through the water, under it, above it, behind it.
+#include <cstdint>
+
 #include "scene/procedural/mesh_builder.h"
 #include "scene/procedural/scenes.h"
 #include "scene/procedural/textures.h"
@@ -6,7 +8,7 @@
 namespace shoal {
 namespace {
 
-enum Mat : int { kBasin, kRed, kYellow, kGreen, kBall, kBoard, kMatCount };
+enum Mat : std::uint8_t { kBasin, kRed, kYellow, kGreen, kBall, kBoard, kMatCount };
 constexpr float kHalfX = 1.0f, kHalfZ = 0.7f, kDepth = 0.8f, kRim = 0.15f;
 
 void basin(PartBuilder& b, int n) {

@@ -2,6 +2,8 @@
 // never mean fewer triangles.
 #pragma once
 
+#include <cstdint>
+
 #include "scene/procedural/part_plan.h"
 
 namespace shoal::pond {
@@ -11,7 +13,7 @@ inline constexpr float kLongX = 11.0f, kLongZ = 8.0f;  // half axes of the ellip
 inline constexpr float kWaterHalfX = 14.0f, kWaterHalfZ = 10.5f;  // the plane's half size: its edge is under the banks
 inline constexpr float kDeep = 2.1f, kLowest = -2.6f;
 
-enum Mat : int {
+enum Mat : std::uint8_t {
   kDirt,
   kVerge,
   kMeadow,

@@ -2,6 +2,8 @@
 // never mean fewer triangles.
 #pragma once
 
+#include <cstdint>
+
 #include "scene/procedural/mesh_builder.h"
 #include "scene/procedural/part_plan.h"
 
@@ -18,7 +20,7 @@ inline constexpr int kBays = 6;
 
 inline float floor_y(float x) { return -mix(kShallow, kDeep, (x + kHalfX) / (2 * kHalfX)); }
 
-enum Mat : int {
+enum Mat : std::uint8_t {
   kTiles,
   kLane,
   kBand,

@@ -1,6 +1,7 @@
 // `tank`: an aquarium on a table, seen through its side. The glass is left out: the front is a plane of water that
 // stands upright, and the top another that lies. Within are gravel, stones, plants, an arch and fish.
 #include <cmath>
+#include <cstdint>
 
 #include "scene/procedural/part_plan.h"
 #include "scene/procedural/scenes.h"
@@ -10,7 +11,7 @@
 namespace shoal {
 namespace {
 
-enum Mat : int {
+enum Mat : std::uint8_t {
   kBack,
   kSide,
   kFrame,
