@@ -164,9 +164,13 @@ else
 </script>
 PAGE
   for width in 1280 500; do
-    timeout 120 "$browser" --headless=new --no-sandbox --disable-gpu --user-data-dir="$work/profile" --enable-logging=stderr \
-      --virtual-time-budget=10000 --window-size=$width,900 --dump-dom "file://$work/checked.html#left=none&right=two-phase&at=25" \
-      >.dom 2>.log
+    # On a busy machine the browser's time budget can end before the page's script ran: then, and only then, again.
+    for attempt in 1 2 3; do
+      timeout 120 "$browser" --headless=new --no-sandbox --disable-gpu --user-data-dir="$work/profile$attempt" \
+        --enable-logging=stderr --virtual-time-budget=10000 --window-size=$width,900 \
+        --dump-dom "file://$work/checked.html#left=none&right=two-phase&at=25" >.dom 2>.log
+      if grep -q 'checked: opened' .dom; then break; fi
+    done
     equals "$width px wide" "checked: opened at 25; 10 at 10 inset(0px 90% 0px 0px); 90 at 90 inset(0px 10% 0px 0px); left true; pictures true 9; spots true; fits true" \
       "$(grep -o 'checked: opened[^<]*' .dom)"
     equals "$width px wide: nothing on the console" "" "$(grep CONSOLE .log)"
