@@ -131,8 +131,8 @@ SHOAL_INLINE void add_spline_filtered(const WaterSurface& surface, const SplineG
 //   noise, trochoids and grids, the local envelope's of ripples; noise and grids are faded as isotropic waves;
 //   trochoids fade amplitude and push of each wave.
 // Error: slopes are off their mean over the footprint by an RMS of 0.25 of the surface's own (a square), 0.37 (one of 4
-//   to 1), ripple-filter's by 0.45, never by more than the unfiltered ones; hidden and kept variance add up to the whole within 10 %
-//   (tests/water/test_filter_surface.cpp).
+//   to 1), ripple-filter's by 0.45, never by more than the unfiltered ones; hidden and kept variance add up to the
+//   whole within 10 % (tests/water/test_filter_surface.cpp).
 template <class F>
 SHOAL_INLINE FilteredPoint<F> filtered_surface_at(const WaterSurface& surface, F x_m, F z_m, Footprint<F> p) {
   const F x = clamp(x_m, F(-surface.reach_m), F(surface.reach_m));
