@@ -32,8 +32,9 @@ struct MarchedHit {
 //   lanes  which of them
 // Source: Wyman 2005 (the plane behind as the first guess); Liu et al. 2020 (the broad phase's layer); the iteration
 //         and the test by edges are ours.
-// Error: none where sure and the layer's samples show what stands within a pixel of the way; measured in
-//        docs/QUALITY.md.
+// Error: a sure answer is wrong where the ray meets what the layer does not show at all, near no edge of it: sides that
+//        face away from flat water's rays and towards the bent one. Wrong objects by scene: docs/QUALITY.md; bounded by
+//        tests/refraction/test_waves_against_rays.cpp.
 MarchedHit march_hit(const FrameData& f, const Layer& layer, const Ray<WideF>& ray, WideI own, WideM lanes);
 
 }  // namespace shoal::inline SHOAL_ISA_NS

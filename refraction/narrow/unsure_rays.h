@@ -5,6 +5,7 @@
 
 namespace shoal::inline SHOAL_ISA_NS {
 
+// Those that still wait when it goes out of scope are looked up then.
 class UnsureRays {
  public:
   // Ids found go to ids[slot].
