@@ -57,7 +57,7 @@ TEST_CASE("waves: what two-phase finds is what rays find", "[refraction]") {
       }
       INFO(name << ", camera " << camera << ": " << wrong << " of " << water);
       REQUIRE(water > 3000);
-      CHECK(static_cast<double>(wrong) <= 0.01 * static_cast<double>(water));
+      CHECK(static_cast<double>(wrong) <= 0.002 * static_cast<double>(water));
     }
   }
 }
