@@ -19,15 +19,6 @@ static void trace_sample(FrameData& f, const MethodKernels& method, ThreadPool& 
   if (digests != nullptr) digests->direct(f), digests->shaded(f), clock.skip();
 }
 
-// Where waves bend rays through a layer: its edges.
-static void find_edges(const FrameData& f, const FrameKernels& kernels, const WaterPass& water,
-                       const VisibilityBuffer& layer, LayerEdges& edges, ThreadPool& pool, StageClock& clock) {
-  if (water.surface == nullptr) return;
-  pool.for_each(f.layers.grid.region_count(),
-                [&](std::size_t region, int) { kernels.find_edges(layer, edges, region); });
-  clock.lap("water.edges");
-}
-
 void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernels& method, ThreadPool& pool,
                    StageClock& clock, StageDigests* digests) {
   const std::size_t items = f.bins.items.size();
@@ -63,7 +54,7 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
     const bool shows = find_region(f, kernels, water, pool);
     clock.lap("water.region");
     if (!shows) continue;
-    if (method.refracted_alpha != nullptr) {
+    if (draws_refracted(method, water)) {
       const auto front_end =
           method.refracted_front_end != nullptr ? method.refracted_front_end : kernels.refracted_front_end;
       pool.for_each(items, [&](std::size_t item, int) { front_end(f, water, item); });
@@ -73,11 +64,10 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
         if (f.tile_active[tile] != 0) kernels.draw_tile(f, f.refracted, method.refracted_alpha, &water, nullptr, tile);
       });
       clock.lap("refracted.visibility");
-      find_edges(f, kernels, water, f.refracted, f.refracted_edges, pool, clock);
       if (digests != nullptr) digests->refracted(f), clock.skip();
     }
 
-    if (water.mirrors) {
+    if (draws_mirrored(water)) {
       const WaterPass mirrored = mirrored_pass(water);
       pool.for_each(items, [&](std::size_t item, int) { kernels.mirrored_front_end(f, mirrored, item); });
       clock.lap("reflected.front_end");
@@ -86,7 +76,6 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
           kernels.draw_tile(f, f.mirrored, kernels.mirrored_alpha, &mirrored, nullptr, tile);
       });
       clock.lap("reflected.visibility");
-      find_edges(f, kernels, water, f.mirrored, f.mirrored_edges, pool, clock);
       if (digests != nullptr) digests->reflected(f), clock.skip();
     }
 

@@ -18,7 +18,6 @@
 #include "refraction/broad/broad_phase.h"
 #include "refraction/field/distance_field.h"
 #include "refraction/floor.h"
-#include "refraction/narrow/layer_edges.h"
 #include "refraction/narrow/triangle_tree.h"
 #include "refraction/pass_bins.h"
 #include "refraction/renderer.h"
@@ -106,8 +105,8 @@ struct Blended {
   bool any() const { return !chunks.empty(); }
 };
 
-// The grid of the refracted and the mirrored layer: the frame's, or, where waves bend rays out of the frame, with a
-// margin all round. Margins are whole regions, so a frame's block is a block of the layer.
+// The grid of the refracted and the mirrored layer: the frame's, or, where the method looks along bent rays into the lit
+// layer, with a margin all round. Margins are whole regions, so a frame's block is a block of the layer.
 struct LayerGrid {
   FrameGrid grid;
   BinGrid tiles, regions;
@@ -187,11 +186,10 @@ struct FrameData {
   PassBins water_bins;
   Blended blended;
   VisibilityBuffer direct, refracted, mirrored;
-  LayerEdges refracted_edges, mirrored_edges;  // filled where waves bend rays
-  std::vector<std::uint8_t> region_of_body;    // [regions] 64-pixel cells that show this pass's body, or touch such
-  std::vector<std::uint8_t> layer_regions;     // [layers' regions] that are drawn
-  std::vector<std::uint8_t> tile_active;       // [layers' tiles] that those touch
-  std::vector<WaterPass> water;                // one a body, whether it shows or not
+  std::vector<std::uint8_t> region_of_body;  // [regions] 64-pixel cells that show this pass's body, or touch such
+  std::vector<std::uint8_t> layer_regions;   // [layers' regions] that are drawn
+  std::vector<std::uint8_t> tile_active;     // [layers' tiles] that those touch
+  std::vector<WaterPass> water;              // one a body, whether it shows or not
   LitPoints layer;                             // the refracted layer, before absorption
   LitPoints fetched;  // what each water pixel took from it, absorbed; the points only where they are captured
   HitBuffers hits;

@@ -110,7 +110,7 @@ std::uint8_t water_in_region(const FrameData& f, std::int32_t body, std::size_t 
 FrameKernels make_frame_kernels() {
   return {&direct_front_end,  &water_front_end,     &refracted_front_end, &mirrored_front_end, &draw_tile,
           &direct_alpha,      &mirrored_alpha,      &water_in_region,     &shadow_front_end,   &draw_shadow_tile,
-          &blended_front_end, &blend_direct_region, &displaced_region,    &find_edges};
+          &blended_front_end, &blend_direct_region, &displaced_region};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

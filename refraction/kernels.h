@@ -42,14 +42,13 @@ struct FrameKernels {
   void (*blend_direct)(FrameData&, std::size_t region, int thread);
   // Displaced water over one region of the direct pass, where it is in front.
   void (*displaced_water)(FrameData&, std::size_t region);
-  // Edges of one region of a layer (refraction/narrow/layer_edges.h).
-  void (*find_edges)(const VisibilityBuffer&, LayerEdges&, std::size_t region);
 };
 
 // What a method brings: its broad phase and its narrow phase (refraction/methods/method.h).
 struct MethodKernels {
   BroadPhase (*map)(const WaterBody&, const View&);
   AlphaTest refracted_alpha;  // null: the method finds by itself what water shows, and no refracted layer is drawn
+  bool follows_waves;         // under waves its rays are looked up in the scene, and no refracted layer is drawn
   void (*narrow)(FrameData&, const WaterPass&, std::size_t region);
   // The blended bins over one region of a water pass, into Blended::refracted or, for a mirrored pass, mirrored.
   void (*blend_water)(FrameData&, const WaterPass&, std::size_t region, int thread);
@@ -67,6 +66,12 @@ struct MethodKernels {
   // with that frame's. Throws NotApplicable where the method cannot show the scene.
   void (*prepare)(FrameData&, ThreadPool&, const Camera*) = nullptr;
 };
+
+// Which layers a body's passes draw.
+SHOAL_INLINE bool draws_refracted(const MethodKernels& method, const WaterPass& water) {
+  return method.refracted_alpha != nullptr && !(method.follows_waves && water.surface != nullptr);
+}
+SHOAL_INLINE bool draws_mirrored(const WaterPass& water) { return water.mirrors && water.surface == nullptr; }
 
 // An option of a method, `--set KEY=VALUE`. Its value is a number: a truth value is 0 or 1.
 struct MethodOption {

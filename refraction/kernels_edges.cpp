@@ -38,7 +38,8 @@ void copy_rows(const VisibilityBuffer& layer, int x0, int y0, Rows& at) {
     }
 }
 
-SHOAL_INLINE WideF nearest_at_edge(const Rows& at, int x, int y) {
+// Sixteen pixels of a row.
+SHOAL_INLINE WideM at_edge(const Rows& at, int x, int y) {
   const auto depth = [&](int dx, int dy) SHOAL_LAMBDA { return WideF::load(&at[y + 1 + dy][kFirst + x + dx]); };
   const WideF middle = depth(0, 0), twice = middle + middle;
   WideF nearest = middle, bend(0.0f);
@@ -48,34 +49,27 @@ SHOAL_INLINE WideF nearest_at_edge(const Rows& at, int x, int y) {
     bend = max(bend, abs((a + b) - twice));
   };
   across(1, 0), across(0, 1), across(1, 1), across(1, -1);
-  return select(bend > nearest * WideF(kLeastStep), nearest, WideF(0.0f));
+  return bend > nearest * WideF(kLeastStep);
 }
 
 }  // namespace
 
-void find_edges(const VisibilityBuffer& layer, LayerEdges& edges, std::size_t region) {
+EdgeBlocks find_edges(const VisibilityBuffer& layer, std::size_t region) {
   const FrameGrid& grid = layer.grid;
   const int x0 = static_cast<int>(region % static_cast<std::size_t>(grid.regions_x)) * kRegionSize;
   const int y0 = static_cast<int>(region / static_cast<std::size_t>(grid.regions_x)) * kRegionSize;
   alignas(64) Rows at;
   copy_rows(layer, x0, y0, at);
+  EdgeBlocks found{};
   for (int y = 0; y < kRegionSize; y += kBlockSize)
     for (int x = 0; x < kRegionSize; x += 16) {
-      WideF of_rows(0.0f);
-      for (int row = y; row < y + kBlockSize; ++row) {
-        const WideF nearest = nearest_at_edge(at, x, row);
-        nearest.store(edges.pixel.data() + static_cast<std::size_t>(y0 + row) * static_cast<std::size_t>(edges.stride) +
-                      static_cast<std::size_t>(x0 + x));
-        of_rows = max(of_rows, nearest);
-      }
-      alignas(64) float column[16];
-      of_rows.store(column);
-      float* block = edges.block.data() +
-                     static_cast<std::size_t>((y0 + y) / kBlockSize) * static_cast<std::size_t>(edges.blocks_x) +
-                     static_cast<std::size_t>((x0 + x) / kBlockSize);
-      for (int k = 0; k < 4; ++k)
-        block[k] = max(max(column[4 * k], column[4 * k + 1]), max(column[4 * k + 2], column[4 * k + 3]));
+      WideM any_row = at_edge(at, x, y);
+      for (int row = y + 1; row < y + kBlockSize; ++row) any_row = any_row | at_edge(at, x, row);
+      std::uint32_t pixels = to_bits(any_row);
+      for (int block = x / kBlockSize; pixels != 0; ++block, pixels >>= kBlockSize)
+        if ((pixels & 0xFu) != 0) found.row[y / kBlockSize] |= static_cast<std::uint16_t>(1u << block);
     }
+  return found;
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

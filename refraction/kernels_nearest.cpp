@@ -1,4 +1,4 @@
-// The narrow phase's last resort (refraction/narrow/nearest_hit.h).
+// Narrow phase: what rays meet first in the scene (refraction/narrow/nearest_hit.h).
 #include "refraction/narrow/nearest_hit.h"
 
 #include "refraction/narrow/confirm_hit.h"
@@ -7,143 +7,250 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
-static_assert(sizeof(Geometry::TriangleRecord) == 16 && sizeof(VertexRecord) == 32, "gathered by these strides");
-
 // Nodes that wait: at most fifteen a level, and no scene that fits into memory has ten levels.
 constexpr int kMostWaiting = 160;
 
+// Rays go together where, along some axis, all go one way by at least this much.
+constexpr float kLeastAlong = 0.2f;
+
+SHOAL_INLINE float least(WideF v, WideM lanes) { return reduce_min(select(lanes, v, WideF(3e38f))); }
+SHOAL_INLINE float greatest(WideF v, WideM lanes) { return reduce_max(select(lanes, v, WideF(-3e38f))); }
+SHOAL_INLINE WideF along(const Vec3<WideF>& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+// Which way rays go: the axis along which they all go, and its sense.
+struct Heading {
+  int axis = 0;
+  float sense = 0;  // 1 or -1; 0: none
+};
+
+// Rays as one beam: at a depth along the axis they are within an interval on either of the others, whose ends move in
+// proportion to the depth.
+struct Beam {
+  int axis[3];
+  float sense;
+  float base_lo, base_hi;  // where they start, along the axis
+  float lo[2], hi[2];      // where they start, along the others
+  float slope_lo[2], slope_hi[2];
+  WideF per_t;  // depth by length
+
+  // Intervals are wider than their rounding.
+  Beam(const Ray<WideF>& ray, const Heading& heading, WideM lanes) : sense(heading.sense) {
+    axis[0] = heading.axis, axis[1] = (heading.axis + 1) % 3, axis[2] = (heading.axis + 2) % 3;
+    const WideF main = along(ray.direction_world, axis[0]);
+    per_t = abs(main);
+    const WideF inverse = WideF(1.0f) / select(lanes, per_t, WideF(1.0f));
+    const auto starts = [&](int a, float& from, float& to) SHOAL_LAMBDA {
+      const WideF o = along(ray.origin_world, a);
+      from = least(o, lanes), to = greatest(o, lanes);
+      const float by = 1e-6f * max(abs(from), abs(to));
+      from -= by, to += by;
+    };
+    starts(axis[0], base_lo, base_hi);
+    for (int k = 0; k < 2; ++k) {
+      starts(axis[k + 1], lo[k], hi[k]);
+      const WideF slope = along(ray.direction_world, axis[k + 1]) * inverse;
+      slope_lo[k] = least(slope, lanes), slope_hi[k] = greatest(slope, lanes);
+      slope_lo[k] -= 2e-6f * (1.0f + abs(slope_lo[k])), slope_hi[k] += 2e-6f * (1.0f + abs(slope_hi[k]));
+    }
+  }
+
+  // The boxes that any of the rays may pass before `reach`.
+  //   enter  at which depth, at least
+  SHOAL_INLINE WideM passes(const TriangleTree::Boxes& boxes, float reach, WideF& enter) const {
+    const bool up = sense > 0.0f;
+    const WideF first = WideF::load((up ? boxes.lo : boxes.hi)[axis[0]]), last = WideF::load((up ? boxes.hi : boxes.lo)[axis[0]]);
+    enter = max((first - WideF(up ? base_hi : base_lo)) * WideF(sense), WideF(0.0f));
+    const WideF leave = min((last - WideF(up ? base_lo : base_hi)) * WideF(sense), WideF(reach));
+    WideM in = enter <= leave;
+    for (int k = 0; k < 2; ++k) {
+      const WideF from = WideF(lo[k]) + (slope_lo[k] < 0.0f ? leave : enter) * WideF(slope_lo[k]);
+      const WideF to = WideF(hi[k]) + (slope_hi[k] < 0.0f ? enter : leave) * WideF(slope_hi[k]);
+      in = in & (from <= WideF::load(boxes.hi[axis[k + 1]])) & (to >= WideF::load(boxes.lo[axis[k + 1]]));
+    }
+    return in;
+  }
+};
+
 class Search {
  public:
-  Search(const FrameData& frame, const Ray<WideF>& rays, const RayDifferential<WideF>& differential_of)
-      : f(frame), packet(rays), differential(differential_of) {}
-
-  std::int32_t nearest(int of_lane, float known_t, std::int32_t known_id) {
-    lane = of_lane, t = known_t, id = known_id;
-    const auto axis = [&](WideF from, WideF along, float& o, float& inverse_d) SHOAL_LAMBDA {
-      o = extract(from, lane);
-      const float d = extract(along, lane);
-      inverse_d = 1.0f / (abs(d) < 1e-20f ? (d < 0.0f ? -1e-20f : 1e-20f) : d);
+  Search(const FrameData& frame, const Ray<WideF>& rays, const RayDifferential<WideF>& differential_of,
+         const NearestHit& known)
+      : t(known.t), id(known.id), f(frame), ray(rays), differential(differential_of) {
+    const auto inverted = [](WideF d) SHOAL_LAMBDA {
+      const WideF least_d = select(d < WideF(0.0f), WideF(-1e-20f), WideF(1e-20f));
+      return WideF(1.0f) / select(abs(d) < WideF(1e-20f), least_d, d);
     };
-    axis(packet.origin_world.x, packet.direction_world.x, origin.x, inverse.x);
-    axis(packet.origin_world.y, packet.direction_world.y, origin.y, inverse.y);
-    axis(packet.origin_world.z, packet.direction_world.z, origin.z, inverse.z);
-    direction = {extract(packet.direction_world.x, lane), extract(packet.direction_world.y, lane),
-                 extract(packet.direction_world.z, lane)};
+    inverse = {inverted(ray.direction_world.x), inverted(ray.direction_world.y), inverted(ray.direction_world.z)};
+    for (int a = 0; a < 3; ++a) along(ray.origin_world, a).store(ray_of[a]), along(ray.direction_world, a).store(ray_of[a + 3]);
+  }
+
+  void run(const Heading& heading, WideM of_lanes) {
+    lanes = of_lanes;
+    const Beam beam(ray, heading, lanes);
+    find_reach(beam);
     waiting = 0;
-    if (f.tree->nodes.size() == 0) return id;
-    push(static_cast<std::int32_t>(f.tree->nodes.size()) - 1, 0.0f);
+    open(beam, f.tree->nodes.size() - 1);
     while (waiting > 0) {
       --waiting;
-      if (enters[waiting] > t) continue;
-      if (nodes[waiting] < 0)
-        meet(static_cast<std::size_t>(~nodes[waiting]));
+      if (enters[waiting] > reach) continue;
+      const TriangleTree::Node& node = f.tree->nodes[parents[waiting] >> 4];
+      const std::size_t place = parents[waiting] & 15u;
+      const WideM passing = rays_through(node.boxes, place);
+      if (none(passing)) continue;
+      const std::int32_t child = node.child[place];
+      if (child < 0)
+        meet(beam, static_cast<std::size_t>(~child), passing);
       else
-        open(f.tree->nodes[static_cast<std::size_t>(nodes[waiting])]);
+        open(beam, static_cast<std::size_t>(child));
     }
-    return id;
   }
+
+  WideF t;
+  WideI id;
 
  private:
-  void push(std::int32_t node, float at) {
-    nodes[waiting] = node;
-    enters[waiting++] = at;
+  // The lanes that pass one box before what they meet.
+  WideM rays_through(const TriangleTree::Boxes& boxes, std::size_t place) const {
+    WideF enter(0.0f), leave = t;
+    const auto slab = [&](int a, WideF origin, WideF inv) SHOAL_LAMBDA {
+      const WideF x = (WideF(boxes.lo[a][place]) - origin) * inv, y = (WideF(boxes.hi[a][place]) - origin) * inv;
+      enter = max(enter, min(x, y)), leave = min(leave, max(x, y));
+    };
+    slab(0, ray.origin_world.x, inverse.x), slab(1, ray.origin_world.y, inverse.y), slab(2, ray.origin_world.z, inverse.z);
+    return lanes & (enter <= leave);
   }
+  void find_reach(const Beam& beam) { reach = greatest(t * beam.per_t, lanes) * 1.000001f; }
 
-  // The children that the ray passes, the nearest last.
-  void open(const TriangleTree::Node& node) {
-    const auto side = [](float inv, const float* lo, const float* hi, bool first)
-                          SHOAL_LAMBDA { return WideF::load((inv >= 0.0f) == first ? lo : hi); };
-    const WideF ox(origin.x), oy(origin.y), oz(origin.z), ix(inverse.x), iy(inverse.y), iz(inverse.z);
-    const WideF enter = max(max((side(inverse.x, node.min_x, node.max_x, true) - ox) * ix,
-                                (side(inverse.y, node.min_y, node.max_y, true) - oy) * iy),
-                            max((side(inverse.z, node.min_z, node.max_z, true) - oz) * iz, WideF(0.0f)));
-    const WideF leave = min(min((side(inverse.x, node.min_x, node.max_x, false) - ox) * ix,
-                                (side(inverse.y, node.min_y, node.max_y, false) - oy) * iy),
-                            min((side(inverse.z, node.min_z, node.max_z, false) - oz) * iz, WideF(t)));
-    std::uint32_t left = to_bits(enter <= leave);
+  // The children that the beam passes, the nearest last.
+  void open(const Beam& beam, std::size_t at) {
+    WideF enter;
+    std::uint32_t left = to_bits(beam.passes(f.tree->nodes[at].boxes, reach, enter));
     if (left == 0) return;
-    alignas(64) float at[TriangleTree::kWidth];
-    enter.store(at);
+    alignas(64) float enter_of[TriangleTree::kWidth];
+    enter.store(enter_of);
     const int first = waiting;
     for (; left != 0; left &= left - 1) {
+      const std::uint32_t k = static_cast<std::uint32_t>(__builtin_ctz(left));
+      int place = waiting++;
+      for (; place > first && enters[place - 1] < enter_of[k]; --place)
+        parents[place] = parents[place - 1], enters[place] = enters[place - 1];
+      parents[place] = static_cast<std::uint32_t>(at) << 4 | k, enters[place] = enter_of[k];
+    }
+  }
+
+  // Boxes of a leaf's triangles, grown as triangle_tree.cpp does.
+  static void find_boxes(const TriangleTree::Leaf& leaf, TriangleTree::Boxes& boxes) {
+    for (int a = 0; a < 3; ++a) {
+      const WideF p0 = WideF::load(leaf.p0[a]), e1 = WideF::load(leaf.e1[a]), e2 = WideF::load(leaf.e2[a]);
+      const WideF lo = p0 + min(min(e1, e2), WideF(0.0f)), hi = p0 + max(max(e1, e2), WideF(0.0f));
+      const WideF by = (hi - lo) * WideF(2e-5f) + max(abs(lo), abs(hi)) * WideF(2e-6f);
+      (lo - by).store(boxes.lo[a]), (hi + by).store(boxes.hi[a]);
+    }
+  }
+
+  void meet(const Beam& beam, std::size_t at, WideM passing) {
+    const TriangleTree::Leaf& leaf = f.tree->leaves[at];
+    const TriangleTree::Kinds kinds = f.tree->kinds[at];
+    TriangleTree::Boxes boxes;
+    find_boxes(leaf, boxes);
+    WideF enter;
+    const std::uint32_t near_beam = to_bits(beam.passes(boxes, reach, enter)) & kinds.there;
+    if (near_beam == 0) return;
+    if (__builtin_popcount(near_beam) <= __builtin_popcount(to_bits(passing)))
+      meet_by_triangles(leaf, kinds, near_beam);
+    else
+      meet_by_rays(leaf, kinds, near_beam, to_bits(passing));
+    find_reach(beam);
+  }
+  // Each triangle against all rays.
+  void meet_by_triangles(const TriangleTree::Leaf& leaf, TriangleTree::Kinds kinds, std::uint32_t triangles) {
+    for (std::uint32_t left = triangles; left != 0; left &= left - 1) {
       const int k = __builtin_ctz(left);
-      int place = waiting;
-      push(node.child[k], at[k]);
-      for (; place > first && enters[place - 1] < at[k]; --place) {
-        nodes[place] = nodes[place - 1], enters[place] = enters[place - 1];
-        nodes[place - 1] = node.child[k], enters[place - 1] = at[k];
+      const auto vector = [k](const float (*v)[TriangleTree::kWidth]) SHOAL_LAMBDA { return Vec3f{v[0][k], v[1][k], v[2][k]}; };
+      const Vec3f e1 = vector(leaf.e1), e2 = vector(leaf.e2);
+      const TriangleTest test = test_triangle(ray, broadcast<WideF>(vector(leaf.p0)), broadcast<WideF>(e1), broadcast<WideF>(e2), lanes);
+      const WideI candidate(leaf.id[k]);
+      WideM met = test.inside & ((test.t < t) | ((test.t == t) & (candidate < id)));
+      if (none(met)) continue;
+      const std::uint32_t bit = 1u << k;
+      if ((kinds.one_sided & bit) != 0) met = met & (dot(ray.direction_world, broadcast<WideF>(cross(e1, e2))) < WideF(0.0f));
+      if ((kinds.masked & bit) != 0) met = met & mask_from_bits(alpha_bits(f, ray, differential, leaf.id[k], to_bits(met)));
+      t = select(met, test.t, t);
+      id = select(met, candidate, id);
+    }
+  }
+  // Each ray against all triangles.
+  void meet_by_rays(const TriangleTree::Leaf& leaf, TriangleTree::Kinds kinds, std::uint32_t triangles, std::uint32_t passing) {
+    const auto vector = [](const float (*v)[TriangleTree::kWidth]) SHOAL_LAMBDA { return Vec3<WideF>{WideF::load(v[0]), WideF::load(v[1]), WideF::load(v[2])}; };
+    const Vec3<WideF> p0 = vector(leaf.p0), e1 = vector(leaf.e1), e2 = vector(leaf.e2);
+    alignas(64) float t_of[16];
+    alignas(64) std::int32_t id_of[16];
+    t.store(t_of), id.store(id_of);
+    for (; passing != 0; passing &= passing - 1) {
+      const int lane = __builtin_ctz(passing);
+      const Ray<WideF> one = {broadcast<WideF>(Vec3f{ray_of[0][lane], ray_of[1][lane], ray_of[2][lane]}), broadcast<WideF>(Vec3f{ray_of[3][lane], ray_of[4][lane], ray_of[5][lane]})};
+      const TriangleTest test = test_triangle(one, p0, e1, e2, mask_from_bits(triangles));
+      const WideM front = (dot(one.direction_world, cross(e1, e2)) < WideF(0.0f)) | mask_from_bits(~static_cast<std::uint32_t>(kinds.one_sided) & 0xFFFFu);
+      std::uint32_t left = to_bits(test.inside & (test.t <= WideF(t_of[lane])) & front);
+      if (left == 0) continue;
+      alignas(64) float at[16];
+      test.t.store(at);
+      for (; left != 0; left &= left - 1) {
+        const int k = __builtin_ctz(left);
+        if (at[k] > t_of[lane] || (at[k] == t_of[lane] && leaf.id[k] > id_of[lane])) continue;
+        if ((kinds.masked >> k & 1u) != 0 && alpha_bits(f, ray, differential, leaf.id[k], 1u << lane) == 0) continue;
+        t_of[lane] = at[k], id_of[lane] = leaf.id[k];
       }
     }
-  }
-
-  void corners(std::size_t leaf, WideM there, Vec3<WideF>& p0, Vec3<WideF>& e1, Vec3<WideF>& e2) const {
-    if (leaf < f.tree->corners.size()) {
-      const TriangleTree::Corners& c = f.tree->corners[leaf];
-      p0 = {WideF::load(c.p0_x), WideF::load(c.p0_y), WideF::load(c.p0_z)};
-      e1 = {WideF::load(c.e1_x), WideF::load(c.e1_y), WideF::load(c.e1_z)};
-      e2 = {WideF::load(c.e2_x), WideF::load(c.e2_y), WideF::load(c.e2_z)};
-      return;
-    }
-    const WideI record = (WideI(f.tree->leaves[leaf].first_triangle) + lane_index()) << 2;
-    const std::int32_t* vertex_of = reinterpret_cast<const std::int32_t*>(f.geometry.triangles);
-    const float* coordinate_of = reinterpret_cast<const float*>(f.geometry.vertices);
-    const auto corner = [&](int k) SHOAL_LAMBDA {
-      const WideI at = gather(vertex_of, record + WideI(k), there, WideI(0)) << 3;
-      return Vec3<WideF>{gather(coordinate_of, at, there, WideF(0.0f)),
-                         gather(coordinate_of, at + WideI(1), there, WideF(0.0f)),
-                         gather(coordinate_of, at + WideI(2), there, WideF(0.0f))};
-    };
-    p0 = corner(0), e1 = corner(1) - p0, e2 = corner(2) - p0;
-  }
-
-  void meet(std::size_t leaf_index) {
-    const TriangleTree::Leaf& leaf = f.tree->leaves[leaf_index];
-    const WideM there = lane_index() < WideI(leaf.triangle_count);
-    Vec3<WideF> p0, e1, e2;
-    corners(leaf_index, there, p0, e1, e2);
-    const Ray<WideF> ray = {broadcast<WideF>(origin), broadcast<WideF>(direction)};
-    const TriangleTest test = test_triangle(ray, p0, e1, e2, there);
-    WideM met = test.inside & (test.t <= WideF(t));
-    if (leaf.one_sided) met = met & (dot(ray.direction_world, cross(e1, e2)) < WideF(0.0f));
-    std::uint32_t left = to_bits(met);
-    if (left == 0) return;
-    alignas(64) float at[TriangleTree::kWidth];
-    test.t.store(at);
-    for (; left != 0; left &= left - 1) {
-      const int k = __builtin_ctz(left);
-      const std::int32_t candidate = leaf.first_triangle + k;
-      if (at[k] > t || (at[k] == t && candidate > id)) continue;
-      if (leaf.masked && alpha_bits(f, packet, differential, candidate, 1u << lane) == 0) continue;
-      t = at[k];
-      id = candidate;
-    }
+    t = WideF::load(t_of), id = WideI::load(id_of);
   }
 
   const FrameData& f;
-  const Ray<WideF>& packet;
+  const Ray<WideF>& ray;
   const RayDifferential<WideF>& differential;
-  int lane = 0;
-  Vec3f origin{}, direction{}, inverse{};
-  float t = 0;
-  std::int32_t id = kNoId;
+  WideM lanes;
+  Vec3<WideF> inverse;  // of the directions
+  alignas(64) float ray_of[6][16];
+  float reach = 0;  // along the beam: nothing beyond is nearer than what is known
   int waiting = 0;
-  std::int32_t nodes[kMostWaiting];
+  std::uint32_t parents[kMostWaiting];  // 16 x the node + the place in it
   float enters[kMostWaiting];
 };
 
+// All lanes' common heading, or, where there is none, the first one's own.
+Heading find_heading(const Ray<WideF>& ray, WideM lanes) {
+  Heading best;
+  float most = kLeastAlong;
+  for (int a = 0; a < 3; ++a) {
+    const WideF d = along(ray.direction_world, a);
+    const float up = least(d, lanes), down = -greatest(d, lanes);
+    if (up > most) best = {a, 1.0f}, most = up;
+    if (down > most) best = {a, -1.0f}, most = down;
+  }
+  if (best.sense != 0.0f) return best;
+  const int lane = __builtin_ctz(to_bits(lanes));
+  most = 0;
+  for (int a = 0; a < 3; ++a) {
+    const float d = extract(along(ray.direction_world, a), lane);
+    if (abs(d) > most) best = {a, d > 0.0f ? 1.0f : -1.0f}, most = abs(d);
+  }
+  return best;
+}
+
 }  // namespace
 
-WideI nearest_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideF t,
-                   WideI id, WideM lanes) {
-  alignas(64) std::int32_t ids[16];
-  alignas(64) float ts[16];
-  id.store(ids), t.store(ts);
-  Search search(f, ray, differential);
-  for (std::uint32_t left = to_bits(lanes); left != 0; left &= left - 1) {
-    const int lane = __builtin_ctz(left);
-    ids[lane] = search.nearest(lane, ts[lane], ids[lane]);
+NearestHit nearest_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential,
+                        const NearestHit& known, WideM lanes) {
+  if (f.tree->nodes.size() == 0) return known;
+  Search search(f, ray, differential, known);
+  while (any(lanes)) {
+    const Heading heading = find_heading(ray, lanes);
+    const WideM together = lanes & (along(ray.direction_world, heading.axis) * WideF(heading.sense) > WideF(kLeastAlong));
+    if (none(together)) break;
+    search.run(heading, together);
+    lanes = lanes & !together;
   }
-  return WideI::load(ids);
+  return {search.id, search.t};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

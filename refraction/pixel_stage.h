@@ -37,6 +37,11 @@ SHOAL_INLINE WideI pixel_slots(const FrameGrid& grid, WideI x_px, WideI y_px) {
   return (block << 4) + ((y_px & WideI(3)) << 2) + (x_px & WideI(3));
 }
 
+// The lanes of a block that show a body's surface.
+SHOAL_INLINE WideM water_lanes(const FrameData& f, const WaterPass& water, const Block& block) {
+  return (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
+}
+
 SHOAL_INLINE Ray<WideF> block_rays(const View& view, const Block& block) {
   return pixel_ray(view, to_float(WideI(block.x_px) + block_x()) + WideF(0.5f),
                    to_float(WideI(block.y_px) + block_y()) + WideF(0.5f));

@@ -77,7 +77,8 @@ struct Renderer::Impl {
     f.bin_grid = make_bin_grid(settings.width_px, settings.height_px, settings.tile_px);
     const bool waves = std::any_of(scene.waters.begin(), scene.waters.end(),
                                    [](const WaterBody& body) { return body.surface.kind != SurfaceKind::kFlat; });
-    f.layers = make_layer_grid(f.grid, settings.tile_px, waves ? kWaveMargin_px : 0);
+    const bool looks_along_waves = waves && method.kernels.light_layer != nullptr;
+    f.layers = make_layer_grid(f.grid, settings.tile_px, looks_along_waves ? kWaveMargin_px : 0);
     f.geometry = view_of(scene.geometry, scene.materials);
     f.water_geometry = view_of(outlines, outline_materials);
     filter_materials();
@@ -85,7 +86,7 @@ struct Renderer::Impl {
     f.water_bins.items.resize(scene.waters.size());
     if (!scene.waters.empty() && method.kernels.trace == nullptr) {
       f.tree = std::make_unique<TriangleTree>();
-      f.tree->build(scene.geometry, scene.materials, waves);
+      f.tree->build(scene.geometry, scene.materials);
     }
     read_method_options(method, settings.method_options, f.method_option);
     if (method.kernels.trace != nullptr || settings.shadows == Shadows::kRays) {
@@ -145,7 +146,6 @@ struct Renderer::Impl {
       f.refracted.resize(f.layers.grid);
       f.mirrored.resize(f.layers.grid);
       f.hits.resize(f.grid);
-      if (f.layers.margin_px > 0) f.refracted_edges.resize(f.layers.grid), f.mirrored_edges.resize(f.layers.grid);
       if (method.kernels.light_layer != nullptr) f.layer.resize(f.grid), f.fetched.resize(f.grid);
     }
     if (captures()) {

@@ -82,10 +82,9 @@ struct ShadeBeforeStages {
 
   static void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
     const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
-    NarrowPhase phase(f, water);
+    NarrowPhase phase(f, water, region);
     for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
-      const WideM here =
-          (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
+      const WideM here = water_lanes(f, water, block);
       if (none(here)) return;
       const Ray<WideF> view_ray = block_rays(f.view, block);
       WaterRays<WideF> rays = M::template rays<WideF>(water, view_ray, differential);
@@ -116,6 +115,7 @@ struct ShadeBeforeStages {
     MethodKernels k = MethodStages<M>::kernels();
     k.narrow = &narrow;
     k.light_layer = &light;
+    k.follows_waves = false;
     k.whole_scene = M::kWholeScene;
     if constexpr (HasOwnMap<M>) {
       k.refracted_front_end = &refracted_front_end;

@@ -78,7 +78,7 @@ void place_water(FrameData& f, const MethodKernels& method) {
     w.mirrors = f.settings.reflections == Reflections::kScene || always_mirrors(w.optics.eye_below, side.eta);
     w.keep = {w.map.far_normal, overlap_m(w) - dot(w.map.far_normal, w.map.plane_origin)};
     if (method.whole_scene) w.keep.offset_m = kEverything_m;
-    w.looks_far = w.surface != nullptr || method.light_layer != nullptr;
+    w.looks_far = method.light_layer != nullptr;
     const bool in_water = eye.over_body && eye.above_m < 0.0f && eye.above_plane_m > -bodies[b].depth_m;
     if (f.eye_in_water < 0 && in_water) f.eye_in_water = w.index;
   }

@@ -116,9 +116,9 @@ void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
   const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
   Corners corners;
   bool traced = false;
-  NarrowPhase phase(f, water);
+  NarrowPhase phase(f, water, region);
   for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
-    const WideM here = Stages::shown(f, water, block);
+    const WideM here = water_lanes(f, water, block);
     if (none(here)) return;
     if (!traced) {
       const int x0 = static_cast<int>(region % static_cast<std::size_t>(f.grid.regions_x)) * kRegionSize;
@@ -136,7 +136,7 @@ void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
                             broadcast<WideF>(body.axis_x) * p.x_m + broadcast<WideF>(body.axis_z) * p.z_m;
     store_masked(f.hits.refracted_id.data() + block.offset, id, here);
     shade_detail::put3(f.hits.aim_x, f.hits.aim_y, f.hits.aim_z, block.offset, aim, here);
-    if (f.blended.any()) note_layer(f, water, id, aim, f.layers.offset(block.x_px, block.y_px));
+    if (f.blended.any()) note_layer(f, water, false, id, aim, block);
     phase.mirror(block, rays, here);
   });
 }

@@ -34,9 +34,9 @@ void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
   const std::vector<DistanceField>& fields = water.optics.eye_below ? f.fields->above : f.fields->below;
   const DistanceField& field = fields[static_cast<std::size_t>(water.index)];
   const MarchSettings settings{f.method_option[kStop], static_cast<int>(f.method_option[kSteps])};
-  NarrowPhase phase(f, water);
+  NarrowPhase phase(f, water, region);
   for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
-    const WideM here = Stages::shown(f, water, block);
+    const WideM here = water_lanes(f, water, block);
     if (none(here)) return;
     const WaterRays<WideF> rays = TrueRays::rays(water, block_rays(f.view, block), differential);
     const FieldHit hit =
@@ -44,8 +44,7 @@ void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
     store_masked(f.hits.refracted_id.data() + block.offset, hit.id, here);
     const Ray<WideF>& ray = rays.refracted;
     if (f.blended.any())
-      note_layer(f, water, hit.id, ray.origin_world + ray.direction_world * hit.t,
-                 f.layers.offset(block.x_px, block.y_px));
+      note_layer(f, water, false, hit.id, ray.origin_world + ray.direction_world * hit.t, block);
     phase.mirror(block, rays, here);
   });
 }

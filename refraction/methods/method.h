@@ -13,79 +13,97 @@
 // PixelRays; block_grid.cpp). MethodStages<MyMethod>::kernels() makes the frame's stages of it.
 #pragma once
 
+#include <optional>
+
 #include "refraction/kernels.h"
 #include "refraction/narrow/confirm_hit.h"
-#include "refraction/narrow/march_hit.h"
-#include "refraction/narrow/unsure_rays.h"
+#include "refraction/narrow/layer_edges.h"
+#include "refraction/narrow/nearest_hit.h"
 #include "refraction/pixel_stage.h"
 #include "refraction/shade_block.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-// The ray that the surface bends, and the one that goes straight on; both mirror alike.
-template <class F>
-SHOAL_INLINE WaterRays<F> bent_rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
+// The rays that go on from the surface: into the water as it bends them, or straight; back as it mirrors them.
+template <bool kBent, class F>
+SHOAL_INLINE WaterRays<F> rays_from_surface(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
   const ExactRay<F> hit = exact_ray(eye_side(water), view_ray);
   const RayDifferential<F> crossing = at_crossing(view_ray, differential, hit);
-  return {hit,
-          {hit.crossing_world, hit.refracted},
-          {hit.crossing_world, hit.reflected},
-          refracted_differential(crossing, hit),
-          reflected_differential(crossing, hit)};
-}
-template <class F>
-SHOAL_INLINE WaterRays<F> straight_rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
-  const ExactRay<F> hit = exact_ray(eye_side(water), view_ray);
-  const RayDifferential<F> crossing = at_crossing(view_ray, differential, hit);
-  return {hit,
-          {hit.crossing_world, hit.incident},
-          {hit.crossing_world, hit.reflected},
-          crossing,
-          reflected_differential(crossing, hit)};
+  WaterRays<F> out{hit, {}, {hit.crossing_world, hit.reflected}, {}, reflected_differential(crossing, hit)};
+  out.refracted = {hit.crossing_world, kBent ? hit.refracted : hit.incident};
+  out.refracted_differential = kBent ? refracted_differential(crossing, hit) : crossing;
+  return out;
 }
 
-// The narrow phase of one region: what the rays of its blocks meet in a layer, or else in the scene.
+// Writes what rays meet into a layer that is not drawn, for blended materials are laid over what it holds.
+//   id, position  of the points met; kNoId: none
+//   block         whose pixels the rays are of
+SHOAL_INLINE void note_layer(FrameData& f, const WaterPass& water, bool mirrored, WideI id, Vec3<WideF> position,
+                             const Block& block) {
+  const Vec3<WideF> image =
+      mirrored ? mirrored_position(water.optics, position) : virtual_position(water.map, position);
+  const ClipVertex<WideF> clip = project(f.view, image);
+  const WideM seen = is_triangle(id) & (clip.w > WideF(0.0f));
+  const WideF depth = select(seen, clip.z / select(seen, clip.w, WideF(1.0f)), WideF(0.0f));
+  VisibilityBuffer& layer = mirrored ? f.mirrored : f.refracted;
+  const std::size_t at = f.layers.offset(block.x_px, block.y_px);
+  depth.store(layer.depth.data() + at);
+  id.store(layer.id.data() + at);
+}
+
+// The narrow phase of one region: what the rays of its blocks meet.
+//
+// Where a layer is drawn it tells, but for what is beside its edges: there, and where waves bend rays away from what it
+// shows, the scene is asked.
 class NarrowPhase {
  public:
-  NarrowPhase(FrameData& frame, const WaterPass& pass)
-      : f(frame),
-        water(pass),
-        refracted_(frame, frame.hits.refracted_id.data()),
-        mirrored_(frame, frame.hits.mirrored_id.data()) {}
+  NarrowPhase(FrameData& frame, const WaterPass& pass, std::size_t region)
+      : f(frame), water(pass), layer_region_(frame.layers.region(frame.grid, region)) {}
 
   // Of the block's pixels at `here`, which show the water.
-  void refract(const Block& block, const WaterRays<WideF>& rays, WideM here, bool bent) {
+  //   drawn  the refracted layer is, and by these rays
+  void refract(const Block& block, const WaterRays<WideF>& rays, WideM here, bool drawn) {
     const WideM through = here & rays.at_surface.transmitted;
-    meet({f.refracted, f.refracted_edges, water, false}, block, rays.refracted, rays.refracted_differential, here,
-         through, bent, f.hits.refracted_id, refracted_);
+    const WideI id = meet(drawn ? &f.refracted : nullptr, refracted_edges_, false, block, rays.refracted,
+                          rays.refracted_differential, through);
+    store_masked(f.hits.refracted_id.data() + block.offset, id, here);
   }
   // What the surface mirrors is found alike by every method.
   void mirror(const Block& block, const WaterRays<WideF>& rays, WideM here) {
     if (!water.mirrors) return;
-    meet({f.mirrored, f.mirrored_edges, water, true}, block, rays.reflected, rays.reflected_differential, here, here,
-         water.surface != nullptr, f.hits.mirrored_id, mirrored_);
+    const WideI id = meet(draws_mirrored(water) ? &f.mirrored : nullptr, mirrored_edges_, true, block, rays.reflected,
+                          rays.reflected_differential, here);
+    store_masked(f.hits.mirrored_id.data() + block.offset, id, here);
   }
 
  private:
-  void meet(const Layer& layer, const Block& block, const Ray<WideF>& ray, const RayDifferential<WideF>& differential,
-            WideM here, WideM lanes, bool bent, AlignedArray<std::int32_t>& ids, UnsureRays& unsure) {
-    const WideI own = WideI::load(layer.visibility.id.data() + f.layers.offset(block.x_px, block.y_px));
-    if (bent) {
-      const MarchedHit hit = march_hit(f, layer, ray, own, lanes);
-      store_masked(ids.data() + block.offset, hit.id, here);
-      unsure.add(ray, differential, hit.t, hit.id, block.offset, lanes & !hit.sure);
-      return;
+  WideI meet(const VisibilityBuffer* layer, std::optional<EdgeBlocks>& edges, bool mirrored, const Block& block,
+             const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideM lanes) {
+    NearestHit known;
+    if (layer != nullptr) {
+      const WideI own = WideI::load(layer->id.data() + f.layers.offset(block.x_px, block.y_px));
+      const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),
+                  y = WideI(block.y_px + f.layers.margin_px) + block_y();
+      const ConfirmedHit shown = confirm_hit(f.geometry, *layer, ray, own, x, y, lanes);
+      if (!edges) edges = find_edges(*layer, layer_region_);
+      lanes = lanes & !shown.bare;
+      known.id = select(shown.held, shown.id, known.id);
+      if (!edges->at(block.x_px, block.y_px))
+        lanes = lanes & !shown.held;
+      else if (any(shown.held))
+        known.t = select(shown.held, triangle_distance(f.geometry, ray, shown.id, shown.held), known.t);
+      if (none(lanes)) return known.id;
     }
-    const WideI x = WideI(block.x_px + f.layers.margin_px) + block_x(),
-                y = WideI(block.y_px + f.layers.margin_px) + block_y();
-    const ConfirmedHit hit = confirm_hit(f.geometry, layer.visibility, ray, own, x, y, lanes);
-    store_masked(ids.data() + block.offset, hit.id, here);
-    unsure.add(ray, differential, WideF(kEndless), WideI(kNoId), block.offset, lanes & !hit.held & !hit.bare);
+    const NearestHit hit = nearest_hits(f, ray, differential, known, lanes);
+    if (layer == nullptr && f.blended.any())
+      note_layer(f, water, mirrored, hit.id, ray.origin_world + ray.direction_world * hit.t, block);
+    return hit.id;
   }
 
   FrameData& f;
   const WaterPass& water;
-  UnsureRays refracted_, mirrored_;
+  std::size_t layer_region_;
+  std::optional<EdgeBlocks> refracted_edges_, mirrored_edges_;
 };
 
 // The map and the rays without refraction: geometry where it is, each ray straight on.
@@ -98,7 +116,7 @@ struct StraightRays {
 
   template <class F>
   SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
-    return straight_rays(water, view_ray, differential);
+    return rays_from_surface<false>(water, view_ray, differential);
   }
 };
 
@@ -109,29 +127,12 @@ struct TrueRays {
 
   template <class F>
   SHOAL_INLINE static WaterRays<F> rays(const WaterPass& water, Ray<F> view_ray, RayDifferential<F> differential) {
-    return bent_rays(water, view_ray, differential);
+    return rays_from_surface<true>(water, view_ray, differential);
   }
 };
 
-// For a method that draws no refracted layer: writes what a block's rays met into it, for blended materials are laid
-// over what it holds.
-//   id, position  of the points met; kNoId: none
-//   at            of the block in the layer
-SHOAL_INLINE void note_layer(FrameData& f, const WaterPass& water, WideI id, Vec3<WideF> position, std::size_t at) {
-  const ClipVertex<WideF> clip = project(f.view, virtual_position(water.map, position));
-  const WideM seen = is_triangle(id) & (clip.w > WideF(0.0f));
-  const WideF depth = select(seen, clip.z / select(seen, clip.w, WideF(1.0f)), WideF(0.0f));
-  depth.store(f.refracted.depth.data() + at);
-  id.store(f.refracted.id.data() + at);
-}
-
 template <class M>
 struct MethodStages {
-  // The lanes of a block that show the body's surface.
-  static WideM shown(const FrameData& f, const WaterPass& water, const Block& block) {
-    return (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
-  }
-
   // Alpha test of the refracted pass: where the method's ray meets the triangle.
   static std::uint32_t refracted_alpha(const FrameData& f, const WaterPass* water, std::int32_t id, int x_px, int y_px,
                                        std::uint32_t cover) {
@@ -145,12 +146,13 @@ struct MethodStages {
 
   static void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
     const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
-    NarrowPhase phase(f, water);
+    NarrowPhase phase(f, water, region);
+    const bool drawn = draws_refracted(kernels(), water);
     for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
-      const WideM here = shown(f, water, block);
+      const WideM here = water_lanes(f, water, block);
       if (none(here)) return;
       const WaterRays<WideF> rays = M::template rays<WideF>(water, block_rays(f.view, block), differential);
-      phase.refract(block, rays, here, water.surface != nullptr && M::kFollowsWaves);
+      phase.refract(block, rays, here, drawn);
       phase.mirror(block, rays, here);
     });
   }
@@ -160,9 +162,7 @@ struct MethodStages {
     const FrameData& f;
     const WaterPass& water;
 
-    WideM lanes(const Block& block) const {
-      return (WideI::load(f.direct.id.data() + block.offset) == WideI(kFirstWaterId + water.index)) & block.in_frame;
-    }
+    WideM lanes(const Block& block) const { return water_lanes(f, water, block); }
     BlendRays rays(const Block& block, WideM& here) const {
       const WaterRays<WideF> r =
           M::template rays<WideF>(water, block_rays(f.view, block), pixel_ray_differential<WideF>(f.view));
@@ -185,7 +185,7 @@ struct MethodStages {
 
   static void shade(FrameData& f, std::size_t region) { shade_region<M>(f, region); }
 
-  static constexpr MethodKernels kernels() { return {&M::map, &refracted_alpha, &narrow, &blend_water, &shade}; }
+  static constexpr MethodKernels kernels() { return {&M::map, &refracted_alpha, M::kFollowsWaves, &narrow, &blend_water, &shade}; }
 
   // Of a method that finds by itself what its rays meet, in what it has prepared: no refracted layer is drawn.
   static constexpr MethodKernels kernels_without_layer(decltype(MethodKernels::narrow) finds,

@@ -20,13 +20,7 @@ void extend(Box& box, const Box& by) {
 
 // Grown by more than the slack of the triangle test (confirm_hit.h) and the rounding of the box test: both are parts of
 // the coordinates' size.
-Box box_of(const Geometry& geometry, std::int32_t first, std::int32_t count) {
-  Box box;
-  for (std::int32_t k = first; k < first + count; ++k)
-    for (const std::uint32_t v : geometry.triangles[static_cast<std::size_t>(k)].vertex) {
-      const Vec3f p = geometry.vertices[v].position_world;
-      extend(box, {p, p});
-    }
+Box grown(Box box) {
   const auto grow = [](float& lo, float& hi) {
     const float by = (hi - lo) * 2e-5f + std::max(std::fabs(lo), std::fabs(hi)) * 2e-6f;
     lo -= by, hi += by;
@@ -34,119 +28,219 @@ Box box_of(const Geometry& geometry, std::int32_t first, std::int32_t count) {
   grow(box.lo.x, box.hi.x), grow(box.lo.y, box.hi.y), grow(box.lo.z, box.hi.z);
   return box;
 }
-
-void put(TriangleTree::Node& node, int place, const Box& box) {
-  node.min_x[place] = box.lo.x, node.min_y[place] = box.lo.y, node.min_z[place] = box.lo.z;
-  node.max_x[place] = box.hi.x, node.max_y[place] = box.hi.y, node.max_z[place] = box.hi.z;
+Box box_of(const Geometry& geometry, std::int32_t triangle) {
+  Box box;
+  for (const std::uint32_t v : geometry.triangles[static_cast<std::size_t>(triangle)].vertex) {
+    const Vec3f p = geometry.vertices[v].position_world;
+    extend(box, {p, p});
+  }
+  return box;
 }
-Box box_of(const TriangleTree::Node& node) {
+Box box_of(const Geometry& geometry, const TriangleTree::Leaf& leaf) {
+  Box box;
+  for (const std::int32_t id : leaf.id)
+    if (id != TriangleTree::kNone) extend(box, box_of(geometry, id));
+  return grown(box);
+}
+
+void put(TriangleTree::Boxes& boxes, int place, const Box& box) {
+  boxes.lo[0][place] = box.lo.x, boxes.lo[1][place] = box.lo.y, boxes.lo[2][place] = box.lo.z;
+  boxes.hi[0][place] = box.hi.x, boxes.hi[1][place] = box.hi.y, boxes.hi[2][place] = box.hi.z;
+}
+Box box_of(const TriangleTree::Boxes& boxes) {
   Box box;
   for (int i = 0; i < TriangleTree::kWidth; ++i)
-    extend(box, {{node.min_x[i], node.min_y[i], node.min_z[i]}, {node.max_x[i], node.max_y[i], node.max_z[i]}});
+    extend(box, {{boxes.lo[0][i], boxes.lo[1][i], boxes.lo[2][i]}, {boxes.hi[0][i], boxes.hi[1][i], boxes.hi[2][i]}});
   return box;
 }
 
-TriangleTree::Corners corners_of(const Geometry& geometry, const TriangleTree::Leaf& leaf) {
-  TriangleTree::Corners to{};
-  for (std::int32_t k = 0; k < leaf.triangle_count; ++k) {
-    const Geometry::TriangleRecord& r = geometry.triangles[static_cast<std::size_t>(leaf.first_triangle + k)];
-    const Vec3f p0 = geometry.vertices[r.vertex[0]].position_world;
-    const Vec3f e1 = geometry.vertices[r.vertex[1]].position_world - p0;
-    const Vec3f e2 = geometry.vertices[r.vertex[2]].position_world - p0;
-    to.p0_x[k] = p0.x, to.p0_y[k] = p0.y, to.p0_z[k] = p0.z;
-    to.e1_x[k] = e1.x, to.e1_y[k] = e1.y, to.e1_z[k] = e1.z;
-    to.e2_x[k] = e2.x, to.e2_y[k] = e2.y, to.e2_z[k] = e2.z;
+void find_corners(const Geometry& geometry, TriangleTree::Leaf& leaf) {
+  for (int k = 0; k < TriangleTree::kWidth; ++k) {
+    const auto put = [k](float (*to)[TriangleTree::kWidth], Vec3f v) { to[0][k] = v.x, to[1][k] = v.y, to[2][k] = v.z; };
+    Vec3f p0{0, 0, 0}, e1 = p0, e2 = p0;
+    if (leaf.id[k] != TriangleTree::kNone) {
+      const Geometry::TriangleRecord& r = geometry.triangles[static_cast<std::size_t>(leaf.id[k])];
+      p0 = geometry.vertices[r.vertex[0]].position_world;
+      e1 = geometry.vertices[r.vertex[1]].position_world - p0;
+      e2 = geometry.vertices[r.vertex[2]].position_world - p0;
+    }
+    put(leaf.p0, p0), put(leaf.e1, e1), put(leaf.e2, e2);
   }
-  return to;
 }
 
-// A run of triangles and where it is.
-struct Place {
-  Vec3f middle;
-  std::int32_t run;
+// A triangle and its box.
+struct Item {
+  float lo[3], hi[3];
+  std::int32_t triangle;
+  float middle2(int axis) const { return lo[axis] + hi[axis]; }
 };
-float along(Vec3f v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+struct Bounds {
+  float lo[3] = {kEmptyMin, kEmptyMin, kEmptyMin}, hi[3] = {-kEmptyMin, -kEmptyMin, -kEmptyMin};
+  void add(const float* from, const float* to) {
+    for (int a = 0; a < 3; ++a) lo[a] = std::min(lo[a], from[a]), hi[a] = std::max(hi[a], to[a]);
+  }
+  // Half its surface.
+  float area() const {
+    const float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
+    return x < 0.0f ? 0.0f : x * y + y * z + z * x;
+  }
+};
 
-// Brings a range into an order in which each sixteen, each sixteen sixteens ... are near each other: halves it at the
-// median of its longest side, at a whole number of full subtrees.
-void arrange(Place* places, std::size_t count) {
-  if (count <= TriangleTree::kWidth) return;
-  Box box;
-  for (std::size_t i = 0; i < count; ++i) extend(box, {places[i].middle, places[i].middle});
-  const Vec3f size = box.hi - box.lo;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  std::size_t subtree = TriangleTree::kWidth;
-  while (subtree * TriangleTree::kWidth < count) subtree *= TriangleTree::kWidth;
-  const std::size_t half = std::max(subtree, count / 2 / subtree * subtree);
-  std::nth_element(places, places + half, places + count, [axis](const Place& a, const Place& b) {
-    const float at_a = along(a.middle, axis), at_b = along(b.middle, axis);
-    return at_a != at_b ? at_a < at_b : a.run < b.run;
-  });
-  arrange(places, half);
-  arrange(places + half, count - half);
-}
+// Halves of a range of items, or a leaf.
+struct Split {
+  Bounds bounds;
+  std::int32_t left = -1, right = -1;  // splits; -1: a leaf
+  std::uint32_t first = 0, count = 0;
+};
+
+class Builder {
+ public:
+  explicit Builder(std::vector<Item>& of) : items(of) {
+    splits.reserve(items.size() / 4 + 1);
+    split(0, static_cast<std::uint32_t>(items.size()));
+  }
+  std::vector<Item>& items;
+  std::vector<Split> splits;  // the root first
+
+ private:
+  static constexpr int kBins = 16;
+  // Where binned items of an axis go.
+  struct Binning {
+    float from = 0, per = 0;
+    int operator()(float at) const { return std::clamp(static_cast<int>((at - from) * per), 0, kBins - 1); }
+  };
+
+  std::int32_t split(std::uint32_t first, std::uint32_t count) {
+    const std::int32_t at = static_cast<std::int32_t>(splits.size());
+    Split& made = splits.emplace_back();
+    made.first = first, made.count = count;
+    Bounds middles;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      const Item& item = items[i];
+      made.bounds.add(item.lo, item.hi);
+      const float m[3] = {item.middle2(0), item.middle2(1), item.middle2(2)};
+      middles.add(m, m);
+    }
+    if (count <= TriangleTree::kWidth) return at;
+    const std::uint32_t half = divide(first, count, middles);
+    const std::int32_t left = split(first, half);
+    const std::int32_t right = split(first + half, count - half);
+    splits[static_cast<std::size_t>(at)].left = left, splits[static_cast<std::size_t>(at)].right = right;
+    return at;
+  }
+
+  // Brings a range into two parts; returns how many are in the first.
+  std::uint32_t divide(std::uint32_t first, std::uint32_t count, const Bounds& middles) {
+    float best = kEmptyMin;
+    int best_axis = -1, best_bin = 0;
+    Binning binning[3];
+    for (int a = 0; a < 3; ++a) {
+      const float size = middles.hi[a] - middles.lo[a];
+      binning[a] = {middles.lo[a], size > 0.0f ? static_cast<float>(kBins) / size : 0.0f};
+      if (!(size > 0.0f) || !std::isfinite(binning[a].per)) continue;
+      Bounds bounds[kBins];
+      std::uint32_t counts[kBins] = {};
+      for (std::uint32_t i = first; i < first + count; ++i) {
+        const int bin = binning[a](items[i].middle2(a));
+        bounds[bin].add(items[i].lo, items[i].hi), ++counts[bin];
+      }
+      float area_after[kBins] = {};
+      std::uint32_t count_after[kBins] = {};
+      Bounds after;
+      std::uint32_t so_far = 0;
+      for (int k = kBins - 1; k > 0; --k) {
+        after.add(bounds[k].lo, bounds[k].hi), so_far += counts[k];
+        area_after[k] = after.area(), count_after[k] = so_far;
+      }
+      Bounds before;
+      so_far = 0;
+      for (int k = 1; k < kBins; ++k) {
+        before.add(bounds[k - 1].lo, bounds[k - 1].hi), so_far += counts[k - 1];
+        if (so_far == 0 || count_after[k] == 0) continue;
+        const float cost = before.area() * static_cast<float>(so_far) + area_after[k] * static_cast<float>(count_after[k]);
+        if (cost < best) best = cost, best_axis = a, best_bin = k;
+      }
+    }
+    if (best_axis < 0) return count / 2;
+    const auto middle = std::partition(items.begin() + first, items.begin() + first + count, [&](const Item& item) {
+      return binning[best_axis](item.middle2(best_axis)) < best_bin;
+    });
+    return static_cast<std::uint32_t>(middle - items.begin()) - first;
+  }
+};
 
 }  // namespace
 
-void TriangleTree::build(const Geometry& geometry, const Materials& materials, bool with_corners) {
-  struct Run {
-    std::int32_t first, count;
-    bool one_sided, masked;
-  };
-  std::vector<Run> runs;
-  std::vector<Place> places;
+void TriangleTree::build(const Geometry& geometry, const Materials& materials) {
+  std::vector<Item> items;
   for (const Chunk& chunk : geometry.chunks) {
-    const Material& material = materials.materials[chunk.material];
-    if (material.alpha_mode == AlphaMode::kBlend) continue;
-    for (int k = 0; k < chunk.triangle_count; k += kWidth) {
-      runs.push_back({static_cast<std::int32_t>(chunk.first_triangle) + k, std::min(kWidth, chunk.triangle_count - k),
-                      !material.double_sided, material.alpha_mode == AlphaMode::kMask});
-      const Box box = box_of(geometry, runs.back().first, runs.back().count);
-      places.push_back({(box.lo + box.hi) * 0.5f, static_cast<std::int32_t>(runs.size() - 1)});
+    if (materials.materials[chunk.material].alpha_mode == AlphaMode::kBlend) continue;
+    for (int k = 0; k < chunk.triangle_count; ++k) {
+      const std::int32_t triangle = static_cast<std::int32_t>(chunk.first_triangle) + k;
+      const Box box = box_of(geometry, triangle);
+      items.push_back({{box.lo.x, box.lo.y, box.lo.z}, {box.hi.x, box.hi.y, box.hi.z}, triangle});
     }
   }
-  arrange(places.data(), places.size());
-  leaves.clear();
-  for (const Place& place : places) {
-    const Run& run = runs[static_cast<std::size_t>(place.run)];
-    leaves.push() = {run.first, run.count, run.one_sided, run.masked};
-  }
-
-  corners.resize(with_corners ? leaves.size() : 0);
-
-  // Sixteen at a time, level by level, up to one root.
-  nodes.clear();
-  std::vector<std::int32_t> level;
-  for (std::size_t i = 0; i < leaves.size(); ++i) level.push_back(~static_cast<std::int32_t>(i));
-  while (level.size() > 1 || (level.size() == 1 && level[0] < 0)) {
-    std::vector<std::int32_t> above;
-    for (std::size_t i = 0; i < level.size(); i += kWidth) {
-      Node& node = nodes.push();
-      for (int k = 0; k < kWidth; ++k) {
-        put(node, k, Box());
-        const std::size_t child = i + static_cast<std::size_t>(k);
-        node.child[k] = child < level.size() ? level[child] : kNone;
+  nodes.clear(), leaves.clear(), kinds.clear();
+  if (items.empty()) return;
+  const Builder built(items);
+  const auto make_leaf = [&](const Split& split) {
+    Leaf& leaf = leaves.push();
+    Kinds& kind = kinds.push();
+    kind = {};
+    for (std::uint32_t k = 0; k < kWidth; ++k) {
+      leaf.id[k] = kNone;
+      if (k >= split.count) continue;
+      leaf.id[k] = items[split.first + k].triangle;
+      const std::uint16_t bit = static_cast<std::uint16_t>(1u << k);
+      const Material& material = materials.materials[geometry.triangles[static_cast<std::size_t>(leaf.id[k])].material];
+      kind.there |= bit;
+      if (!material.double_sided) kind.one_sided |= bit;
+      if (material.alpha_mode == AlphaMode::kMask) kind.masked |= bit;
+    }
+    return ~static_cast<std::int32_t>(leaves.size() - 1);
+  };
+  // Sixteen parts of a split: its largest is opened again and again. Children are made before their parents.
+  const auto make_node = [&](const auto& self, std::int32_t of) -> std::int32_t {
+    std::int32_t parts[kWidth] = {of};
+    int count = 1;
+    while (count < kWidth) {
+      int largest = -1;
+      float area = -1;
+      for (int i = 0; i < count; ++i) {
+        const Split& split = built.splits[static_cast<std::size_t>(parts[i])];
+        if (split.left >= 0 && split.bounds.area() > area) area = split.bounds.area(), largest = i;
       }
-      above.push_back(static_cast<std::int32_t>(nodes.size() - 1));
+      if (largest < 0) break;
+      const Split& split = built.splits[static_cast<std::size_t>(parts[largest])];
+      parts[count++] = split.right, parts[largest] = split.left;
     }
-    level = above;
-  }
+    std::int32_t child[kWidth];
+    for (int i = 0; i < kWidth; ++i) {
+      child[i] = kNone;
+      if (i >= count) continue;
+      const Split& split = built.splits[static_cast<std::size_t>(parts[i])];
+      child[i] = split.left < 0 ? make_leaf(split) : self(self, parts[i]);
+    }
+    Node& node = nodes.push();
+    for (int i = 0; i < kWidth; ++i) put(node.boxes, i, Box()), node.child[i] = child[i];
+    return static_cast<std::int32_t>(nodes.size() - 1);
+  };
+  make_node(make_node, 0);
   refit(geometry);
 }
 
 void TriangleTree::refit(const Geometry& geometry) {
-  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = corners_of(geometry, leaves[i]);
+  for (std::size_t i = 0; i < leaves.size(); ++i) find_corners(geometry, leaves[i]);
   // Children come before their parents. Empty places keep their inverted boxes.
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     Node& node = nodes[n];
     for (int k = 0; k < kWidth; ++k) {
       const std::int32_t child = node.child[k];
-      if (child < 0) {
-        const Leaf& leaf = leaves[static_cast<std::size_t>(~child)];
-        put(node, k, box_of(geometry, leaf.first_triangle, leaf.triangle_count));
-      } else if (child != kNone) {
-        put(node, k, box_of(nodes[static_cast<std::size_t>(child)]));
-      }
+      if (child < 0)
+        put(node.boxes, k, box_of(geometry, leaves[static_cast<std::size_t>(~child)]));
+      else if (child != kNone)
+        put(node.boxes, k, box_of(nodes[static_cast<std::size_t>(child)].boxes));
     }
   }
 }

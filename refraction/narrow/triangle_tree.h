@@ -1,11 +1,9 @@
-// A tree of boxes over the scene's opaque triangles: what the narrow phase asks where a layer cannot tell
-// (refraction/narrow/nearest_hit.h).
+// A tree of boxes over the scene's opaque triangles: what the narrow phase asks (refraction/narrow/nearest_hit.h).
 //
-// Leaves are sixteen consecutive triangles of a chunk, nodes have sixteen children: one ray is tested against all
-// children of a node, or all triangles of a leaf, at once. Which boxes there are decides only what is looked at; what
-// is found does not depend on them.
+// Nodes have sixteen children, leaves sixteen triangles near each other: all boxes of either are tested at once. Which
+// boxes there are decides only what is looked at; what is found does not depend on them.
 //
-// Memory  about 4 bytes a triangle, 45 with corners.
+// Memory  about 46 bytes a triangle.
 #pragma once
 
 #include <cstdint>
@@ -19,27 +17,27 @@ namespace shoal {
 struct TriangleTree {
   static constexpr int kWidth = 16;
   static constexpr std::int32_t kNone = 0x7FFFFFFF;
+  // Boxes, world, m, by axis; empty places hold an inverted one.
+  struct alignas(64) Boxes {
+    float lo[3][kWidth], hi[3][kWidth];
+  };
   struct alignas(64) Node {
-    float min_x[kWidth], min_y[kWidth], min_z[kWidth];  // world, m; empty places hold an inverted box
-    float max_x[kWidth], max_y[kWidth], max_z[kWidth];
+    Boxes boxes;
     std::int32_t child[kWidth];  // a node, ~ a leaf, or kNone
   };
-  struct Leaf {
-    std::int32_t first_triangle, triangle_count;  // at most kWidth
-    bool one_sided, masked;
+  struct alignas(64) Leaf {
+    float p0[3][kWidth], e1[3][kWidth], e2[3][kWidth];  // first corners, world, and the other two less it
+    std::int32_t id[kWidth];                            // of the triangles; kNone: an empty place
   };
-  // Of a leaf's triangles: first corners, world, and the other two less it.
-  struct alignas(64) Corners {
-    float p0_x[kWidth], p0_y[kWidth], p0_z[kWidth];
-    float e1_x[kWidth], e1_y[kWidth], e1_z[kWidth];
-    float e2_x[kWidth], e2_y[kWidth], e2_z[kWidth];
+  struct Kinds {
+    std::uint16_t there, one_sided, masked;  // a bit a triangle
   };
-  PodVector<Node> nodes;       // the root last; none: nothing is opaque
-  PodVector<Leaf> leaves;      // near each other as the tree has them
-  PodVector<Corners> corners;  // of each, for scenes that are asked often; else empty, and read from the scene
+  PodVector<Node> nodes;   // the root last; none: nothing is opaque
+  PodVector<Leaf> leaves;  // near each other as the tree has them
+  PodVector<Kinds> kinds;  // of the leaves
 
-  // Over all opaque chunks, masked ones with them.
-  void build(const Geometry& geometry, const Materials& materials, bool with_corners);
+  // Over all opaque triangles, masked ones with them.
+  void build(const Geometry& geometry, const Materials& materials);
   // Boxes and corners anew, after vertices have moved.
   void refit(const Geometry& geometry);
 };
