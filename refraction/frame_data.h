@@ -30,7 +30,7 @@ namespace shoal {
 
 // What the narrow phase found at a water pixel: the triangle that its refracted (or mirrored) ray shows.
 struct HitBuffers {
-  AlignedArray<std::int32_t> refracted_id;  // kNoId: the ray leaves the scene
+  AlignedArray<std::int32_t> refracted_id;  // kNoId: the ray leaves the scene; of water: it meets that first
   AlignedArray<std::int32_t> mirrored_id;   // written where WaterPass::mirrors
   AlignedArray<float> aim_x, aim_y, aim_z;  // world: where, by methods that know it; else empty
   void resize(const FrameGrid& g) {

@@ -5,6 +5,7 @@
 #include "refraction/blend_region.h"
 #include "refraction/narrow/rough_mirror.h"
 #include "refraction/pixel_stage.h"
+#include "refraction/trace/path.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -123,6 +124,23 @@ SHOAL_INLINE WaterRays<WideF> water_rays(const FrameData& f, const Block& block,
 template <class M>
 concept Misses = M::kMisses;
 
+// What a block's refracted or mirrored rays bring that meet water again.
+inline Vec3<WideF> look_again(FrameData& f, const Block& block, const WaterPass& water, const WaterRays<WideF>& rays,
+                              bool mirrored, WideM lanes) {
+  const ExactRay<WideF>& at = rays.at_surface;
+  const bool eye_below = water.optics.eye_below;
+  Path path;
+  static_cast<WaterQuery&>(path) = onward(water, rays, mirrored, lanes);
+  path.differential = mirrored ? rays.reflected_differential : rays.refracted_differential;
+  path.weight = broadcast<WideF>(Vec3f{1, 1, 1}) * (mirrored ? at.reflectance : WideF(1.0f) - at.reflectance);
+  path.level = 2;
+  path.medium = mirrored ? f.eye_in_water : eye_below ? kAir : water.index;
+  path.shows = mirrored ? lanes & !at.transmitted : lanes;
+  path.shown_as = mirrored ? HitKind::kMirror : HitKind::kSurface;
+  path.first_body = water.index;
+  return follow_again(f, block, path);
+}
+
 // The lanes of a block that show one body's surface.
 template <class M>
 __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, const WaterPass& water,
@@ -149,24 +167,29 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
         lanes);
     shade_detail::capture_hits(f, block, zero, zero, WideI(kNoId), HitKind::kSky, lanes);
   }
-  Vec3<WideF> refracted = zero, reflected = zero;
+  Vec3<WideF> refracted = zero, reflected = zero, from_water = zero;
   if constexpr (ShadesBefore<M>) {
     if (any(through)) refracted = show_fetched(f, block, water, through);
   } else if (any(through)) {
     const WideI shown = WideI::load(f.hits.refracted_id.data() + block.offset);
     if (Misses<M> && f.capture)
       shade_detail::capture_hits(f, block, zero, zero, WideI(kNoId), HitKind::kMiss, through & !is_triangle(shown));
-    refracted = look(f, water, r.refracted, r.refracted_differential, shown, through, !eye_below,
+    const WideM again = through & (shown < WideI(0));
+    if (any(again)) from_water = look_again(f, block, water, r, false, again);
+    refracted = look(f, water, r.refracted, r.refracted_differential, shown, through & !again, !eye_below,
                      [&](const ShadedLanes& s, WideM hit) SHOAL_LAMBDA {
                        if (!f.capture) return;
                        const Vec3<WideF> p = s.surface.position_world;
                        shade_detail::capture_hits(f, block, p, virtual_position(water.optics, p), shown,
                                                   HitKind::kSurface, hit);
                      });
+    refracted = select<WideF>(again, zero, refracted);
   }
   if (water.mirrors) {
     const WideI shown = WideI::load(f.hits.mirrored_id.data() + block.offset);
-    reflected = look(f, water, r.reflected, r.reflected_differential, shown, lanes, eye_below,
+    const WideM again = lanes & (shown < WideI(0));
+    if (any(again)) from_water = from_water + look_again(f, block, water, r, true, again);
+    reflected = look(f, water, r.reflected, r.reflected_differential, shown, lanes & !again, eye_below,
                      [&](const ShadedLanes& s, WideM hit) SHOAL_LAMBDA {
                        if (!f.capture) return;
                        const WideM total = hit & !at.transmitted;
@@ -175,6 +198,7 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
                      });
     if (filtered && !MirrorsItsWay<M> && !eye_below)
       reflected = select<WideF>(lanes & !is_triangle(shown), mirrored_background, reflected);
+    reflected = select<WideF>(again, zero, reflected);
   } else if (filtered && !MirrorsItsWay<M>) {
     reflected = mirrored_background;
   } else {
@@ -184,7 +208,7 @@ __attribute__((noinline)) void shade_water(FrameData& f, const Block& block, con
     lay_over(f.blended.refracted, block, through, refracted, nullptr);
     if (water.mirrors) lay_over(f.blended.mirrored, block, lanes, reflected, nullptr);
   }
-  const Vec3<WideF> mixed = refracted * (WideF(1.0f) - at.reflectance) + reflected * at.reflectance;
+  const Vec3<WideF> mixed = (refracted * (WideF(1.0f) - at.reflectance) + reflected * at.reflectance) + from_water;
   out.radiance = select<WideF>(lanes, mixed, out.radiance);
   out.covered = select(lanes, WideF(1.0f), out.covered);
 }

@@ -18,7 +18,7 @@
 #include "refraction/kernels.h"
 #include "refraction/narrow/confirm_hit.h"
 #include "refraction/narrow/layer_edges.h"
-#include "refraction/narrow/nearest_hit.h"
+#include "refraction/narrow/meet_water.h"
 #include "refraction/pixel_stage.h"
 #include "refraction/shade_block.h"
 
@@ -54,31 +54,43 @@ SHOAL_INLINE void note_layer(FrameData& f, const WaterPass& water, bool mirrored
 // The narrow phase of one region: what the rays of its blocks meet.
 //
 // Where a layer is drawn it tells, but for what is beside its edges: there, and where waves bend rays away from what it
-// shows, the scene is asked.
+// shows, the scene is asked. True rays may meet water again, another body or the crests of the same: then that is what
+// they show, kFirstWaterId and its number.
 class NarrowPhase {
  public:
   NarrowPhase(FrameData& frame, const WaterPass& pass, std::size_t region)
-      : f(frame), water(pass), layer_region_(frame.layers.region(frame.grid, region)) {}
+      : f(frame),
+        water(pass),
+        meets_water_(frame.water.size() > 1 || is_displaced(*pass.body, pass.surface)),
+        layer_region_(frame.layers.region(frame.grid, region)) {}
 
   // Of the block's pixels at `here`, which show the water.
-  //   drawn  the refracted layer is, and by these rays
-  void refract(const Block& block, const WaterRays<WideF>& rays, WideM here, bool drawn) {
+  //   bent  the rays follow the waves, and what water does to them
+  void refract(const Block& block, const WaterRays<WideF>& rays, WideM here, bool bent) {
     const WideM through = here & rays.at_surface.transmitted;
-    const WideI id = meet(drawn ? &f.refracted : nullptr, refracted_edges_, false, block, rays.refracted,
-                          rays.refracted_differential, through);
+    const bool drawn = !bent || water.surface == nullptr;
+    const NearestHit hit = meet(drawn ? &f.refracted : nullptr, refracted_edges_, false, block, rays.refracted,
+                                rays.refracted_differential, through);
+    const WideI id = bent ? or_water(hit, rays, false, through) : hit.id;
     store_masked(f.hits.refracted_id.data() + block.offset, id, here);
   }
   // What the surface mirrors is found alike by every method.
   void mirror(const Block& block, const WaterRays<WideF>& rays, WideM here) {
     if (!water.mirrors) return;
-    const WideI id = meet(draws_mirrored(water) ? &f.mirrored : nullptr, mirrored_edges_, true, block, rays.reflected,
-                          rays.reflected_differential, here);
-    store_masked(f.hits.mirrored_id.data() + block.offset, id, here);
+    const NearestHit hit = meet(draws_mirrored(water) ? &f.mirrored : nullptr, mirrored_edges_, true, block,
+                                rays.reflected, rays.reflected_differential, here);
+    store_masked(f.hits.mirrored_id.data() + block.offset, or_water(hit, rays, true, here), here);
   }
 
  private:
-  WideI meet(const VisibilityBuffer* layer, std::optional<EdgeBlocks>& edges, bool mirrored, const Block& block,
-             const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideM lanes) {
+  WideI or_water(const NearestHit& hit, const WaterRays<WideF>& rays, bool mirrored, WideM lanes) const {
+    if (!meets_water_ || none(lanes)) return hit.id;
+    const WaterMet met = nearest_water(f, onward(water, rays, mirrored, lanes));
+    return select(lanes & (met.t < hit.t), WideI(kFirstWaterId) + met.body, hit.id);
+  }
+
+  NearestHit meet(const VisibilityBuffer* layer, std::optional<EdgeBlocks>& edges, bool mirrored,
+                  const Block& block, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideM lanes) {
     NearestHit known;
     if (layer != nullptr) {
       const WideI own = WideI::load(layer->id.data() + f.layers.offset(block.x_px, block.y_px));
@@ -88,20 +100,21 @@ class NarrowPhase {
       if (!edges) edges = find_edges(*layer, layer_region_);
       lanes = lanes & !shown.bare;
       known.id = select(shown.held, shown.id, known.id);
-      if (!edges->at(block.x_px, block.y_px))
-        lanes = lanes & !shown.held;
-      else if (any(shown.held))
+      const bool at_edge = edges->at(block.x_px, block.y_px);
+      if (!at_edge) lanes = lanes & !shown.held;
+      if ((at_edge || meets_water_) && any(shown.held))
         known.t = select(shown.held, triangle_distance(f.geometry, ray, shown.id, shown.held), known.t);
-      if (none(lanes)) return known.id;
+      if (none(lanes)) return known;
     }
     const NearestHit hit = nearest_hits(f, ray, differential, known, lanes);
     if (layer == nullptr && f.blended.any())
       note_layer(f, water, mirrored, hit.id, ray.origin_world + ray.direction_world * hit.t, block);
-    return hit.id;
+    return hit;
   }
 
   FrameData& f;
   const WaterPass& water;
+  bool meets_water_;
   std::size_t layer_region_;
   std::optional<EdgeBlocks> refracted_edges_, mirrored_edges_;
 };
@@ -147,12 +160,11 @@ struct MethodStages {
   static void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
     const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
     NarrowPhase phase(f, water, region);
-    const bool drawn = draws_refracted(kernels(), water);
     for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
       const WideM here = water_lanes(f, water, block);
       if (none(here)) return;
       const WaterRays<WideF> rays = M::template rays<WideF>(water, block_rays(f.view, block), differential);
-      phase.refract(block, rays, here, drawn);
+      phase.refract(block, rays, here, M::kFollowsWaves);
       phase.mirror(block, rays, here);
     });
   }

@@ -8,11 +8,8 @@
 // Differs Texture filtering follows ray differentials (Igehy 1999) as the raster methods do, not cones. A ray beyond
 //         the depth or below the weight sees the background, so that a white scene stays white.
 // Error   Which triangle is met is Embree's answer (robust mode); the point on it is our own arithmetic (resolve.h).
-#include <atomic>
-
-#include "refraction/methods/method.h"
-#include "refraction/narrow/displaced_surface.h"
-#include "refraction/trace/trace_rays.h"
+#include "refraction/kernels.h"
+#include "refraction/trace/follow_path.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -26,296 +23,23 @@ constexpr MethodOption kOptions[kOptionCount] = {
     {"refraction", "true", "follow refracted rays", MethodOption::Kind::kTruth, 0, 1},
 };
 
-constexpr float kEndless = 3e38f;
-constexpr std::int32_t kAir = -1, kNowhere = -1;
-
-// Sixteen rays on their way.
-struct Path {
-  Ray<WideF> ray;
-  RayDifferential<WideF> differential;
-  Vec3<WideF> weight;  // of what they bring
-  WideF clear;         // what blended triangles on the way let through, beside that
-  WideM lanes;
-  float t_near = 0;              // in the direction's lengths
-  int level = 1;                 // 1: from the eye
-  std::int32_t medium = kAir;    // the body of water that they are in
-  std::int32_t from = kNowhere;  // the body that they start on: if its surface is a plane they do not meet it again
-  // What they see where they leave the scene: the background along them, or, mirrored by filtered water, this.
-  const Vec3<WideF>* seen_beyond = nullptr;
-  Vec3<WideF> lift;  // to where they start on that one's side, if it is displaced
-  // Of the water pixels' hit buffers, at the pixel's centre: what these lanes meet is what the pixel shows.
-  WideM shows;
-  HitKind shown_as = HitKind::kSurface;
-  std::int32_t first_body = kNowhere;  // that the eye sees
-};
-
-// Where rays meet the nearest body of water.
-struct WaterMet {
-  WideF t;
-  WideI body;  // kNowhere: none
-};
-
-// Seen along the normal, is p inside of the outline?
-SHOAL_INLINE WideM in_outline(const WaterBody& body, Vec3<WideF> p) {
-  const Vec3<WideF> normal = broadcast<WideF>(body.normal);
-  WideM inside = mask_from_bits(0);
-  for (std::size_t i = 0; i + 2 < body.outline.size(); i += 3) {
-    WideM here = mask_from_bits(0xFFFFu);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3f a = body.outline[i + k], edge = body.outline[i + (k + 1) % 3] - a;
-      // A millionth of the edge to spare: no gap between two triangles.
-      const float slack = -1e-6f * dot(edge, edge);
-      here = here & (dot(cross(broadcast<WideF>(edge), p - broadcast<WideF>(a)), normal) >= WideF(slack));
-    }
-    inside = inside | here;
+// What paths are asked of: Embree.
+struct TracedScene {
+  static constexpr bool kBlends = true;
+  static WideI first_hits(const FrameData& f, const Path& path, WideF t_far) {
+    return shoal::first_hits(f, path.ray, path.differential, path.t_near, t_far, path.lanes);
   }
-  return inside;
-}
-
-__attribute__((noinline)) WideF meet_waves(const Path& path, const WaterPass& water) {
-  Ray<WideF> ray = path.ray;
-  if (water.index == path.from) ray.origin_world = ray.origin_world + path.lift;
-  return meet_displaced(*water.body, *water.surface, ray, WideF(path.t_near), path.lanes);
-}
-
-SHOAL_INLINE WaterMet nearest_water(const FrameData& f, const Path& path) {
-  WaterMet met{WideF(kEndless), WideI(kNowhere)};
-  for (const WaterPass& water : f.water) {
-    const WaterBody& body = *water.body;
-    if (is_displaced(body, water.surface)) {
-      const WideF t = meet_waves(path, water);
-      const WideM nearer = path.lanes & (t < met.t);
-      met.t = select(nearer, t, met.t);
-      met.body = select(nearer, WideI(water.index), met.body);
-      continue;
-    }
-    if (water.index == path.from) continue;
-    const Vec3<WideF> normal = broadcast<WideF>(body.normal);
-    const WideF approach = dot(path.ray.direction_world, normal);
-    const WideF height = dot(broadcast<WideF>(body.origin) - path.ray.origin_world, normal);
-    const WideM crosses = path.lanes & (approach != WideF(0.0f));
-    const WideF t = height / select(crosses, approach, WideF(1.0f));
-    const WideM nearer = crosses & (t > WideF(0.0f)) & (t >= WideF(path.t_near)) & (t < met.t);
-    if (none(nearer)) continue;
-    const WideM here = nearer & in_outline(body, path.ray.origin_world + path.ray.direction_world * t);
-    met.t = select(here, t, met.t);
-    met.body = select(here, WideI(water.index), met.body);
+  static void count(const FrameData& f, RayCounts::Kind kind, WideM lanes) {
+    count_rays(f, kind, static_cast<std::uint64_t>(__builtin_popcount(to_bits(lanes))));
   }
-  return met;
-}
-
-class Tracer {
- public:
-  Tracer(FrameData& frame, const Block& at, BlockColor& color) : f(frame), block(at), out(color) {}
-
-  // Adds what the rays bring to the block's colour.
-  __attribute__((noinline)) void follow(const Path& path) {
-    const WaterMet water = nearest_water(f, path);
-    const WideI id = first_hits(f, path.ray, path.differential, path.t_near, water.t, path.lanes);
-    const WideM hit = path.lanes & is_triangle(id);
-    const WideM wet = path.lanes & !hit & (water.body >= WideI(0));
-    const WideM gone = path.lanes & !hit & !wet;
-    if (path.level == 1) capture_visible(path, id, water, hit, wet);
-    if (f.blended.any()) {
-      Path behind = path;
-      const SeenThrough over = see_through(behind, id, water, hit, wet);
-      end(behind, id, water, hit, gone, wet);
-      if (path.level == 1)
-        out.covered = select(path.lanes, WideF(1.0f) - over.keep * (WideF(1.0f) - out.covered), out.covered);
-      return;
-    }
-    end(path, id, water, hit, gone, wet);
-  }
-
- private:
-  // What the rays end at.
-  void end(const Path& path, WideI id, const WaterMet& water, WideM hit, WideM gone, WideM wet) {
-    if (any(hit)) surface(path, id, hit);
-    if (any(gone)) background(path, gone);
-    if (none(wet)) return;
-    for_each_distinct(water.body, wet, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
-      const WaterPass& pass = f.water[static_cast<std::size_t>(one)];
-      Vec3<WideF> normal = broadcast<WideF>(pass.body->normal);
-      if (is_displaced(*pass.body, pass.surface))
-        normal =
-            displaced_normal(*pass.body, *pass.surface, path.ray.origin_world + path.ray.direction_world * water.t);
-      const WideM below = dot(path.ray.direction_world, normal) > WideF(0.0f);
-      if (any(lanes & !below)) interface(path, one, water.t, false, lanes & !below);
-      if (any(lanes & below)) interface(path, one, water.t, true, lanes & below);
-    });
-  }
-
-  // Adds the light of what is blended on the way, which dims what comes from behind.
-  SeenThrough see_through(Path& path, WideI id, const WaterMet& water, WideM hit, WideM wet) {
-    WideF t = select(wet, water.t, WideF(kEndless));
-    if (any(hit)) t = select(hit, triangle_distance(f.geometry, path.ray, id, hit), t);
-    const WideI what = select(hit, id, select(wet, WideI(kFirstWaterId) + water.body, WideI(kNoId)));
-    const SeenThrough over =
-        seen_through(f, path.ray, path.differential, path.t_near, t, what, medium_of(path), path.lanes);
-    add(path.weight * path.clear, over.light, path.lanes);
-    path.clear = path.clear * over.keep;
-    return over;
-  }
-
-  const WaterPass* medium_of(const Path& path) const {
-    return path.medium == kAir ? nullptr : &f.water[static_cast<std::size_t>(path.medium)];
-  }
-  void add(Vec3<WideF> weight, Vec3<WideF> radiance, WideM lanes) {
-    out.radiance = select<WideF>(lanes, out.radiance + weight * radiance, out.radiance);
-  }
-
-  void surface(const Path& path, WideI id, WideM hit) {
-    const WaterPass* medium = medium_of(path);
-    ShadedLanes s;
-    shade_hits(f, path.ray, path.differential, id, hit, medium, s);
-    Vec3<WideF> weight = path.weight;
-    if (medium != nullptr)
-      weight = weight * absorbed(*medium->body, max(s.t * length(path.ray.direction_world), WideF(0.0f)));
-    add(weight * path.clear, s.radiance, hit);
-    if (path.level == 1) {
-      out.covered = select(hit, WideF(1.0f), out.covered);
-      if (f.capture) shade_detail::capture_surface(f, block, s.surface, hit);
-    }
-    const WideM shown = hit & path.shows;
-    if (f.capture && any(shown)) {
-      const Vec3<WideF> p = s.surface.position_world;
-      const BroadPhase& optics = f.water[static_cast<std::size_t>(path.first_body)].optics;
-      const Vec3<WideF> image = path.shown_as == HitKind::kSurface ? virtual_position(optics, p) : p;
-      shade_detail::capture_hits(f, block, p, image, id, path.shown_as, shown);
-    }
-  }
-
-  void background(const Path& path, WideM gone) {
-    Vec3<WideF> weight = path.weight;
-    const Vec3<WideF> direction = normalize(path.ray.direction_world);
-    if (const WaterPass* medium = medium_of(path)) {
-      // Out of the scene through the water's bottom, as the raster methods have it (shade_block.h).
-      const WideF descent = abs(dot(direction, broadcast<WideF>(medium->body->normal)));
-      const WideF path_m =
-          path.level == 1 ? WideF(shade_detail::kFarAway_m) : WideF(medium->body->depth_m) / max(descent, WideF(1e-3f));
-      weight = weight * absorbed(*medium->body, path_m);
-    }
-    add(weight * path.clear, beyond(path, direction), gone);
-  }
-
-  Vec3<WideF> beyond(const Path& path, Vec3<WideF> direction) const {
-    return path.seen_beyond != nullptr ? *path.seen_beyond
-                                       : background_radiance<WideF>(f.scene->lighting.background, direction);
-  }
-
-  // One side of one body's surface.
-  void interface(const Path& path, std::int32_t index, WideF t, bool from_below, WideM lanes) {
-    const WaterPass& water = f.water[static_cast<std::size_t>(index)];
-    WaterSide side = water_side(*water.body, water.surface, from_below);
-    // Waves are filtered for the eye's rays; those that come later meet them as they are.
-    if (path.level == 1) side.pixel = filtering_pixel(water);
-    const bool displaced = is_displaced(*water.body, water.surface);
-    ExactRay<WideF> at =
-        displaced ? displaced_ray(*water.body, *water.surface, path.ray, t, side.pixel) : exact_ray(side, path.ray);
-    Vec3<WideF> mirrored_background;
-    if (side.pixel != nullptr)
-      mirrored_background =
-          mirror_roughly<WideF>(f.scene->lighting.background, *water.body, displaced, at.reflected, at);
-    const RayDifferential<WideF> crossing = at_crossing(path.ray, path.differential, at);
-    Path next;
-    next.weight = path.weight;
-    next.clear = path.clear;
-    if (const WaterPass* medium = medium_of(path))
-      next.weight = next.weight * absorbed(*medium->body, max(at.t * length(path.ray.direction_world), WideF(0.0f)));
-    next.level = path.level + 1;
-    next.from = index;
-    next.first_body = path.level == 1 ? index : path.first_body;
-    const WideM counted = path.level == 1 ? lanes : lanes & path.shows;
-    if (path.level == 1) {
-      out.covered = select(lanes, WideF(1.0f), out.covered);
-      if (f.capture) capture_water(at, lanes);
-    }
-
-    const Vec3<WideF> weight = next.weight;
-    const Vec3<WideF> lift = displaced ? at.normal * surface_lift(*water.body, *water.surface, at.crossing_world)
-                                       : broadcast<WideF>(Vec3f{0, 0, 0});
-    if (f.method_option[kRefraction] != 0.0f) {
-      next.ray = {at.crossing_world, at.refracted};
-      next.lift = -lift;
-      next.differential = refracted_differential(crossing, at);
-      next.weight = weight * (WideF(1.0f) - at.reflectance);
-      next.lanes = lanes & at.transmitted;
-      next.medium = from_below ? kAir : index;
-      next.shows = counted & at.transmitted;
-      next.shown_as = path.level == 1 ? HitKind::kSurface : path.shown_as;
-      if (any(next.lanes)) follow_on(next, RayCounts::kRefracted, true);
-    }
-    if (f.method_option[kReflection] != 0.0f) {
-      next.ray = {at.crossing_world, at.reflected};
-      if (side.pixel != nullptr && !from_below) next.seen_beyond = &mirrored_background;
-      next.lift = lift;
-      next.differential = reflected_differential(crossing, at);
-      next.weight = weight * at.reflectance;
-      next.lanes = lanes & (at.reflectance > WideF(0.0f));
-      next.medium = path.medium;
-      next.shows = counted & !at.transmitted;
-      next.shown_as = HitKind::kMirror;
-      const bool sees_scene = f.settings.reflections == Reflections::kScene || always_mirrors(from_below, side.eta);
-      if (any(next.lanes)) follow_on(next, RayCounts::kReflected, sees_scene);
-    }
-  }
-
-  // Follows rays from a surface, or has them see the background: those that may not see the scene, are too deep, or
-  // bring too little.
-  void follow_on(Path& next, RayCounts::Kind kind, bool sees_scene) {
-    // The pixel's hit buffers are those of the water and what is in it, however much of that is seen.
-    const WideF brings =
-        max(max(next.weight.x, next.weight.y), next.weight.z) * select(next.shows, WideF(1.0f), next.clear);
-    const bool too_deep = static_cast<float>(next.level) > f.method_option[kDepth];
-    WideM on = next.lanes & (brings >= WideF(f.method_option[kWeight]));
-    if (too_deep || !sees_scene) on = mask_from_bits(0);
-    const WideM cut = next.lanes & !on;
-    if (any(cut)) add(next.weight * next.clear, beyond(next, next.ray.direction_world), cut);
-    if (none(on)) return;
-    next.lanes = on;
-    count_rays(f, kind, static_cast<std::uint64_t>(__builtin_popcount(to_bits(on))));
-    follow(next);
-  }
-
-  // What the direct pass would have left: ids and depth.
-  void capture_visible(const Path& path, WideI id, const WaterMet& water, WideM hit, WideM wet) {
-    const WideI seen = select(hit, id, select(wet, WideI(kFirstWaterId) + water.body, WideI(kNoId)));
-    store_masked(f.direct.id.data() + block.offset, seen, path.lanes);
-    const std::uint32_t pixels = to_bits(wet);
-    if (pixels != 0)
-      std::atomic_ref<std::uint64_t>(f.water_pixels)
-          .fetch_add(static_cast<std::uint64_t>(__builtin_popcount(pixels)), std::memory_order_relaxed);
-    if (!f.capture) return;
-    WideF t = water.t;
-    if (any(hit)) {
-      PixelAttributes<WideF> a;
-      resolve_attributes(f.geometry, path.ray, path.differential, id, hit, a);
-      t = select(hit, a.t, t);
-    }
-    const ClipVertex<WideF> clip = project(f.view, path.ray.origin_world + path.ray.direction_world * t);
-    const WideF depth = select(hit | wet, clip.z / clip.w, WideF(0.0f));
-    store_masked(f.direct.depth.data() + block.offset, depth, path.lanes);
-  }
-
-  // At water pixels the G-buffer holds the surface itself; what is seen in it comes with the rays that go on.
-  void capture_water(const ExactRay<WideF>& at, WideM lanes) {
-    const Vec3<WideF> zero = broadcast<WideF>(Vec3f{0, 0, 0});
-    shade_detail::capture_surface(
-        f, block,
-        {at.crossing_world, at.normal, zero, WideF(0.0f), WideF(0.0f), roughness_of_waves(at.slope_variance), zero},
-        lanes);
-    shade_detail::capture_hits(f, block, zero, zero, WideI(kNoId), HitKind::kSky, lanes);
-  }
-
-  FrameData& f;
-  const Block& block;
-  BlockColor& out;
 };
 
 void trace_region(FrameData& f, std::size_t region) {
   const PostSettings post{f.settings.exposure_stops,
                           f.settings.tone_map == ToneMap::kAces ? ToneCurve::kAces : ToneCurve::kNone};
   const float exposure = exposure_scale(post);
+  const TraceLimits limits{static_cast<int>(f.method_option[kDepth]), f.method_option[kWeight],
+                           f.method_option[kReflection] != 0.0f, f.method_option[kRefraction] != 0.0f};
   for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
     BlockColor color;
     if (f.capture) shade_detail::capture_clear(f, block);
@@ -323,14 +47,11 @@ void trace_region(FrameData& f, std::size_t region) {
     path.ray = block_rays(f.view, block);
     path.differential = pixel_ray_differential<WideF>(f.view);
     path.weight = broadcast<WideF>(Vec3f{1, 1, 1});
-    path.clear = WideF(1.0f);
-    path.lift = broadcast<WideF>(Vec3f{0, 0, 0});
     path.lanes = block.in_frame;
     path.t_near = f.view.camera.near_m;
     path.medium = f.eye_in_water;
-    path.shows = mask_from_bits(0);
-    count_rays(f, RayCounts::kPrimary, static_cast<std::uint64_t>(__builtin_popcount(to_bits(path.lanes))));
-    Tracer(f, block, color).follow(path);
+    TracedScene::count(f, RayCounts::kPrimary, path.lanes);
+    Tracer<TracedScene>(f, block, limits, color).follow(path);
     if (f.accumulate) finish_block(f, block, post, exposure, color);
   });
 }

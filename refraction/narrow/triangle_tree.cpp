@@ -90,7 +90,8 @@ struct Bounds {
 struct Split {
   Bounds bounds;
   std::int32_t left = -1, right = -1;  // splits; -1: a leaf
-  std::uint32_t first = 0, count = 0;
+  std::uint32_t first = 0, count = 0;  // items
+  int leaves = 1;
 };
 
 class Builder {
@@ -125,7 +126,9 @@ class Builder {
     const std::uint32_t half = divide(first, count, middles);
     const std::int32_t left = split(first, half);
     const std::int32_t right = split(first + half, count - half);
-    splits[static_cast<std::size_t>(at)].left = left, splits[static_cast<std::size_t>(at)].right = right;
+    Split& whole = splits[static_cast<std::size_t>(at)];
+    whole.left = left, whole.right = right;
+    whole.leaves = splits[static_cast<std::size_t>(left)].leaves + splits[static_cast<std::size_t>(right)].leaves;
     return at;
   }
 
@@ -204,17 +207,20 @@ void TriangleTree::build(const Geometry& geometry, const Materials& materials) {
   const auto make_node = [&](const auto& self, std::int32_t of) -> std::int32_t {
     std::int32_t parts[kWidth] = {of};
     int count = 1;
-    while (count < kWidth) {
+    const auto open_largest = [&](auto may) {
       int largest = -1;
       float area = -1;
       for (int i = 0; i < count; ++i) {
         const Split& split = built.splits[static_cast<std::size_t>(parts[i])];
-        if (split.left >= 0 && split.bounds.area() > area) area = split.bounds.area(), largest = i;
+        if (split.left >= 0 && may(split) && split.bounds.area() > area) area = split.bounds.area(), largest = i;
       }
-      if (largest < 0) break;
+      if (largest < 0) return false;
       const Split& split = built.splits[static_cast<std::size_t>(parts[largest])];
       parts[count++] = split.right, parts[largest] = split.left;
-    }
+      return true;
+    };
+    while (count < kWidth && open_largest([](const Split& split) { return split.leaves > kWidth; })) continue;
+    while (count < kWidth && open_largest([&](const Split& split) { return count + split.leaves - 1 <= kWidth; })) continue;
     std::int32_t child[kWidth];
     for (int i = 0; i < kWidth; ++i) {
       child[i] = kNone;
