@@ -86,7 +86,7 @@ struct Renderer::Impl {
     f.water_bins.items.resize(scene.waters.size());
     if (!scene.waters.empty() && method.kernels.trace == nullptr) {
       f.tree = std::make_unique<TriangleTree>();
-      f.tree->build(scene.geometry, scene.materials);
+      f.tree->build(scene.geometry, scene.materials, pool);
     }
     read_method_options(method, settings.method_options, f.method_option);
     if (method.kernels.trace != nullptr || settings.shadows == Shadows::kRays) {
@@ -185,7 +185,7 @@ struct Renderer::Impl {
     }
     clock.lap("animate");
     if (frame.rays != nullptr) frame.rays->update(), clock.lap("rays.build");
-    if (frame.tree != nullptr) frame.tree->refit(scene.geometry), clock.lap("tree.build");
+    if (frame.tree != nullptr) frame.tree->refit(scene.geometry, pool), clock.lap("tree.build");
     build_shadows(frame, kernels, pool);
     clock.lap("shadow.map");
     if (method.kernels.prepare != nullptr) method.kernels.prepare(frame, pool, &camera), clock.lap("method.build");

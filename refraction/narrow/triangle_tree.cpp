@@ -68,11 +68,19 @@ void find_corners(const Geometry& geometry, TriangleTree::Leaf& leaf) {
   }
 }
 
+// Calls body(i) for each i below count, many at a time.
+template <class Body>
+void for_ranges(ThreadPool& pool, std::size_t count, Body body) {
+  constexpr std::size_t kAtATime = 1024;
+  pool.for_each((count + kAtATime - 1) / kAtATime, [&](std::size_t range, int) {
+    for (std::size_t i = range * kAtATime; i < std::min(count, (range + 1) * kAtATime); ++i) body(i);
+  });
+}
+
 // A triangle and its box.
 struct Item {
   float lo[3], hi[3];
   std::int32_t triangle;
-  float middle2(int axis) const { return lo[axis] + hi[axis]; }
 };
 struct Bounds {
   float lo[3] = {kEmptyMin, kEmptyMin, kEmptyMin}, hi[3] = {-kEmptyMin, -kEmptyMin, -kEmptyMin};
@@ -86,165 +94,217 @@ struct Bounds {
   }
 };
 
+struct Range {
+  std::size_t first, count;
+};
 // Halves of a range of items, or a leaf.
 struct Split {
-  Bounds bounds;
+  Range items;
+  float area = 0;
   std::int32_t left = -1, right = -1;  // splits; -1: a leaf
-  std::uint32_t first = 0, count = 0;  // items
   int leaves = 1;
 };
 
+// Splits items by the surface area heuristic, down to leaves: each range where the halves' areas times their counts are
+// least, of sixteen places along each axis.
+// Source: Goldsmith and Salmon 1987; Wald 2007 (bins).
 class Builder {
  public:
-  explicit Builder(std::vector<Item>& of) : items(of) {
-    splits.reserve(items.size() / 4 + 1);
-    split(0, static_cast<std::uint32_t>(items.size()));
-  }
-  std::vector<Item>& items;
-  std::vector<Split> splits;  // the root first
+  // Ranges of at most task_size are left to others: they are in `tasks`, as leaves of `splits`.
+  Builder(std::vector<Item>& of, Range range, std::size_t task_size) : items(of), least(task_size) { split(range); }
+
+  std::vector<Split> splits;        // the root first, halves after what they are halves of
+  std::vector<std::int32_t> tasks;  // splits
 
  private:
   static constexpr int kBins = 16;
-  // Where binned items of an axis go.
-  struct Binning {
-    float from = 0, per = 0;
-    int operator()(float at) const { return std::clamp(static_cast<int>((at - from) * per), 0, kBins - 1); }
-  };
 
-  std::int32_t split(std::uint32_t first, std::uint32_t count) {
+  std::int32_t split(Range range) {
     const std::int32_t at = static_cast<std::int32_t>(splits.size());
-    Split& made = splits.emplace_back();
-    made.first = first, made.count = count;
-    Bounds middles;
-    for (std::uint32_t i = first; i < first + count; ++i) {
+    Bounds bounds, middles;
+    for (std::size_t i = range.first; i < range.first + range.count; ++i) {
       const Item& item = items[i];
-      made.bounds.add(item.lo, item.hi);
-      const float m[3] = {item.middle2(0), item.middle2(1), item.middle2(2)};
-      middles.add(m, m);
+      bounds.add(item.lo, item.hi);
+      const float middle[3] = {item.lo[0] + item.hi[0], item.lo[1] + item.hi[1], item.lo[2] + item.hi[2]};
+      middles.add(middle, middle);
     }
-    if (count <= TriangleTree::kWidth) return at;
-    const std::uint32_t half = divide(first, count, middles);
-    const std::int32_t left = split(first, half);
-    const std::int32_t right = split(first + half, count - half);
-    Split& whole = splits[static_cast<std::size_t>(at)];
-    whole.left = left, whole.right = right;
-    whole.leaves = splits[static_cast<std::size_t>(left)].leaves + splits[static_cast<std::size_t>(right)].leaves;
+    splits.push_back({range, bounds.area()});
+    if (range.count <= TriangleTree::kWidth) return at;
+    if (range.count <= least) {
+      tasks.push_back(at);
+      return at;
+    }
+    const std::size_t half = divide(range, middles);
+    const std::int32_t left = split({range.first, half});
+    const std::int32_t right = split({range.first + half, range.count - half});
+    splits[static_cast<std::size_t>(at)].left = left, splits[static_cast<std::size_t>(at)].right = right;
     return at;
   }
 
-  // Brings a range into two parts; returns how many are in the first.
-  std::uint32_t divide(std::uint32_t first, std::uint32_t count, const Bounds& middles) {
+  // Brings a range into two parts, neither empty; returns how many are in the first.
+  //   middles  twice the middles' bounds
+  std::size_t divide(Range range, const Bounds& middles) {
+    float per[3];
+    for (int a = 0; a < 3; ++a) {
+      per[a] = static_cast<float>(kBins) / (middles.hi[a] - middles.lo[a]);
+      if (!std::isfinite(per[a])) per[a] = 0.0f;
+    }
+    const auto bin_of = [&](const Item& item, int a) {
+      return std::clamp(static_cast<int>((item.lo[a] + item.hi[a] - middles.lo[a]) * per[a]), 0, kBins - 1);
+    };
+    Bounds bounds[3][kBins];
+    std::size_t counts[3][kBins] = {};
+    for (std::size_t i = range.first; i < range.first + range.count; ++i)
+      for (int a = 0; a < 3; ++a) {
+        const int bin = bin_of(items[i], a);
+        bounds[a][bin].add(items[i].lo, items[i].hi), ++counts[a][bin];
+      }
+
     float best = kEmptyMin;
     int best_axis = -1, best_bin = 0;
-    Binning binning[3];
     for (int a = 0; a < 3; ++a) {
-      const float size = middles.hi[a] - middles.lo[a];
-      binning[a] = {middles.lo[a], size > 0.0f ? static_cast<float>(kBins) / size : 0.0f};
-      if (!(size > 0.0f) || !std::isfinite(binning[a].per)) continue;
-      Bounds bounds[kBins];
-      std::uint32_t counts[kBins] = {};
-      for (std::uint32_t i = first; i < first + count; ++i) {
-        const int bin = binning[a](items[i].middle2(a));
-        bounds[bin].add(items[i].lo, items[i].hi), ++counts[bin];
-      }
-      float area_after[kBins] = {};
-      std::uint32_t count_after[kBins] = {};
-      Bounds after;
-      std::uint32_t so_far = 0;
-      for (int k = kBins - 1; k > 0; --k) {
-        after.add(bounds[k].lo, bounds[k].hi), so_far += counts[k];
-        area_after[k] = after.area(), count_after[k] = so_far;
-      }
-      Bounds before;
+      float cost_after[kBins];
+      std::size_t count_after[kBins];
+      const auto add_up = [&](int bin, Bounds& sum, std::size_t& count) {
+        sum.add(bounds[a][bin].lo, bounds[a][bin].hi), count += counts[a][bin];
+        return sum.area() * static_cast<float>(count);
+      };
+      Bounds after, before;
+      std::size_t so_far = 0;
+      for (int k = kBins - 1; k > 0; --k) cost_after[k] = add_up(k, after, so_far), count_after[k] = so_far;
       so_far = 0;
       for (int k = 1; k < kBins; ++k) {
-        before.add(bounds[k - 1].lo, bounds[k - 1].hi), so_far += counts[k - 1];
-        if (so_far == 0 || count_after[k] == 0) continue;
-        const float cost = before.area() * static_cast<float>(so_far) + area_after[k] * static_cast<float>(count_after[k]);
-        if (cost < best) best = cost, best_axis = a, best_bin = k;
+        const float cost = add_up(k - 1, before, so_far) + cost_after[k];
+        if (so_far != 0 && count_after[k] != 0 && cost < best) best = cost, best_axis = a, best_bin = k;
       }
     }
-    if (best_axis < 0) return count / 2;
-    const auto middle = std::partition(items.begin() + first, items.begin() + first + count, [&](const Item& item) {
-      return binning[best_axis](item.middle2(best_axis)) < best_bin;
-    });
-    return static_cast<std::uint32_t>(middle - items.begin()) - first;
+    if (best_axis < 0) return range.count / 2;
+    const auto from = items.begin() + static_cast<std::ptrdiff_t>(range.first);
+    const auto middle = std::partition(from, from + static_cast<std::ptrdiff_t>(range.count),
+                                       [&](const Item& item) { return bin_of(item, best_axis) < best_bin; });
+    return static_cast<std::size_t>(middle - from);
   }
+
+  std::vector<Item>& items;
+  std::size_t least;
 };
+
+// The same tree for any number of threads.
+std::vector<Split> split_all(std::vector<Item>& items, ThreadPool& pool) {
+  Builder top(items, {0, items.size()}, std::max(items.size() / 64, std::size_t{4096}));
+  std::vector<std::vector<Split>> parts(top.tasks.size());
+  pool.for_each(parts.size(), [&](std::size_t i, int) {
+    Builder part(items, top.splits[static_cast<std::size_t>(top.tasks[i])].items, 0);
+    parts[i] = std::move(part.splits);
+  });
+  std::vector<Split> all = std::move(top.splits);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    // A part's root takes its place in the top; the others come behind.
+    const std::int32_t moved = static_cast<std::int32_t>(all.size()) - 1;
+    for (Split& split : parts[i])
+      if (split.left >= 0) split.left += moved, split.right += moved;
+    all[static_cast<std::size_t>(top.tasks[i])] = parts[i][0];
+    all.insert(all.end(), parts[i].begin() + 1, parts[i].end());
+  }
+  // Halves come after what they are halves of.
+  for (std::size_t i = all.size(); i-- > 0;)
+    if (all[i].left >= 0)
+      all[i].leaves =
+          all[static_cast<std::size_t>(all[i].left)].leaves + all[static_cast<std::size_t>(all[i].right)].leaves;
+  return all;
+}
+
+// Boxes of the opaque triangles.
+std::vector<Item> opaque_items(const Geometry& geometry, const Materials& materials, ThreadPool& pool) {
+  std::vector<std::int32_t> triangles;
+  for (const Chunk& chunk : geometry.chunks)
+    if (materials.materials[chunk.material].alpha_mode != AlphaMode::kBlend)
+      for (int k = 0; k < chunk.triangle_count; ++k)
+        triangles.push_back(static_cast<std::int32_t>(chunk.first_triangle) + k);
+  std::vector<Item> items(triangles.size());
+  for_ranges(pool, items.size(), [&](std::size_t i) {
+    const Box box = box_of(geometry, triangles[i]);
+    items[i] = {{box.lo.x, box.lo.y, box.lo.z}, {box.hi.x, box.hi.y, box.hi.z}, triangles[i]};
+  });
+  return items;
+}
+
+// Sixteen parts of a split: the largest are opened, first those of more leaves than a node has places, then those that
+// fit in whole.
+int open_split(const std::vector<Split>& splits, std::int32_t (&parts)[TriangleTree::kWidth]) {
+  int count = 1;
+  const auto open_largest = [&](auto may) {
+    int largest = -1;
+    float area = -1;
+    for (int i = 0; i < count; ++i) {
+      const Split& split = splits[static_cast<std::size_t>(parts[i])];
+      if (split.left >= 0 && may(split) && split.area > area) area = split.area, largest = i;
+    }
+    if (largest < 0) return false;
+    const Split& split = splits[static_cast<std::size_t>(parts[largest])];
+    parts[count++] = split.right, parts[largest] = split.left;
+    return true;
+  };
+  constexpr int kWidth = TriangleTree::kWidth;
+  while (count < kWidth && open_largest([](const Split& split) { return split.leaves > kWidth; })) continue;
+  while (count < kWidth && open_largest([&](const Split& split) { return count + split.leaves - 1 <= kWidth; }))
+    continue;
+  return count;
+}
 
 }  // namespace
 
-void TriangleTree::build(const Geometry& geometry, const Materials& materials) {
-  std::vector<Item> items;
-  for (const Chunk& chunk : geometry.chunks) {
-    if (materials.materials[chunk.material].alpha_mode == AlphaMode::kBlend) continue;
-    for (int k = 0; k < chunk.triangle_count; ++k) {
-      const std::int32_t triangle = static_cast<std::int32_t>(chunk.first_triangle) + k;
-      const Box box = box_of(geometry, triangle);
-      items.push_back({{box.lo.x, box.lo.y, box.lo.z}, {box.hi.x, box.hi.y, box.hi.z}, triangle});
-    }
-  }
+void TriangleTree::build(const Geometry& geometry, const Materials& materials, ThreadPool& pool) {
   nodes.clear(), leaves.clear(), kinds.clear();
+  std::vector<Item> items = opaque_items(geometry, materials, pool);
   if (items.empty()) return;
-  const Builder built(items);
-  const auto make_leaf = [&](const Split& split) {
+  const std::vector<Split> splits = split_all(items, pool);
+  const auto make_leaf = [&](Range of) {
     Leaf& leaf = leaves.push();
-    Kinds& kind = kinds.push();
-    kind = {};
-    for (std::uint32_t k = 0; k < kWidth; ++k) {
-      leaf.id[k] = kNone;
-      if (k >= split.count) continue;
-      leaf.id[k] = items[split.first + k].triangle;
+    Kinds kind{};
+    for (std::size_t k = 0; k < kWidth; ++k) {
+      leaf.id[k] = k < of.count ? items[of.first + k].triangle : kNone;
+      if (k >= of.count) continue;
       const std::uint16_t bit = static_cast<std::uint16_t>(1u << k);
       const Material& material = materials.materials[geometry.triangles[static_cast<std::size_t>(leaf.id[k])].material];
       kind.there |= bit;
       if (!material.double_sided) kind.one_sided |= bit;
       if (material.alpha_mode == AlphaMode::kMask) kind.masked |= bit;
     }
+    kinds.push() = kind;
     return ~static_cast<std::int32_t>(leaves.size() - 1);
   };
-  // Sixteen parts of a split: its largest is opened again and again. Children are made before their parents.
+  // Children are made before their parents.
   const auto make_node = [&](const auto& self, std::int32_t of) -> std::int32_t {
-    std::int32_t parts[kWidth] = {of};
-    int count = 1;
-    const auto open_largest = [&](auto may) {
-      int largest = -1;
-      float area = -1;
-      for (int i = 0; i < count; ++i) {
-        const Split& split = built.splits[static_cast<std::size_t>(parts[i])];
-        if (split.left >= 0 && may(split) && split.bounds.area() > area) area = split.bounds.area(), largest = i;
-      }
-      if (largest < 0) return false;
-      const Split& split = built.splits[static_cast<std::size_t>(parts[largest])];
-      parts[count++] = split.right, parts[largest] = split.left;
-      return true;
-    };
-    while (count < kWidth && open_largest([](const Split& split) { return split.leaves > kWidth; })) continue;
-    while (count < kWidth && open_largest([&](const Split& split) { return count + split.leaves - 1 <= kWidth; })) continue;
-    std::int32_t child[kWidth];
+    std::int32_t parts[kWidth] = {of}, child[kWidth];
+    const int count = open_split(splits, parts);
     for (int i = 0; i < kWidth; ++i) {
       child[i] = kNone;
       if (i >= count) continue;
-      const Split& split = built.splits[static_cast<std::size_t>(parts[i])];
-      child[i] = split.left < 0 ? make_leaf(split) : self(self, parts[i]);
+      const Split& split = splits[static_cast<std::size_t>(parts[i])];
+      child[i] = split.left < 0 ? make_leaf(split.items) : self(self, parts[i]);
     }
     Node& node = nodes.push();
     for (int i = 0; i < kWidth; ++i) put(node.boxes, i, Box()), node.child[i] = child[i];
     return static_cast<std::int32_t>(nodes.size() - 1);
   };
   make_node(make_node, 0);
-  refit(geometry);
+  refit(geometry, pool);
 }
 
-void TriangleTree::refit(const Geometry& geometry) {
-  for (std::size_t i = 0; i < leaves.size(); ++i) find_corners(geometry, leaves[i]);
+void TriangleTree::refit(const Geometry& geometry, ThreadPool& pool) {
+  std::vector<Box> leaf_box(leaves.size());
+  for_ranges(pool, leaves.size(), [&](std::size_t i) {
+    find_corners(geometry, leaves[i]);
+    leaf_box[i] = box_of(geometry, leaves[i]);
+  });
   // Children come before their parents. Empty places keep their inverted boxes.
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     Node& node = nodes[n];
     for (int k = 0; k < kWidth; ++k) {
       const std::int32_t child = node.child[k];
       if (child < 0)
-        put(node.boxes, k, box_of(geometry, leaves[static_cast<std::size_t>(~child)]));
+        put(node.boxes, k, leaf_box[static_cast<std::size_t>(~child)]);
       else if (child != kNone)
         put(node.boxes, k, box_of(nodes[static_cast<std::size_t>(child)].boxes));
     }

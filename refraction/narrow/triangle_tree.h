@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "core/pod_vector.h"
+#include "core/thread_pool.h"
 #include "raster/geometry.h"
 #include "raster/material.h"
 
@@ -37,9 +38,9 @@ struct TriangleTree {
   PodVector<Kinds> kinds;  // of the leaves
 
   // Over all opaque triangles, masked ones with them.
-  void build(const Geometry& geometry, const Materials& materials);
+  void build(const Geometry& geometry, const Materials& materials, ThreadPool& pool);
   // Boxes and corners anew, after vertices have moved.
-  void refit(const Geometry& geometry);
+  void refit(const Geometry& geometry, ThreadPool& pool);
 };
 
 }  // namespace shoal
