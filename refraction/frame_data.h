@@ -105,8 +105,8 @@ struct Blended {
   bool any() const { return !chunks.empty(); }
 };
 
-// The grid of the refracted and the mirrored layer: the frame's, or, where the method looks along bent rays into the lit
-// layer, with a margin all round. Margins are whole regions, so a frame's block is a block of the layer.
+// The grid of the refracted and the mirrored layer: the frame's, or, where the method looks along bent rays into the
+// lit layer, with a margin all round. Margins are whole regions, so a frame's block is a block of the layer.
 struct LayerGrid {
   FrameGrid grid;
   BinGrid tiles, regions;
@@ -190,7 +190,7 @@ struct FrameData {
   std::vector<std::uint8_t> layer_regions;   // [layers' regions] that are drawn
   std::vector<std::uint8_t> tile_active;     // [layers' tiles] that those touch
   std::vector<WaterPass> water;              // one a body, whether it shows or not
-  LitPoints layer;                             // the refracted layer, before absorption
+  LitPoints layer;                           // the refracted layer, before absorption
   LitPoints fetched;  // what each water pixel took from it, absorbed; the points only where they are captured
   HitBuffers hits;
   HitPoints hit_points;

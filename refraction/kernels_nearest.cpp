@@ -58,7 +58,8 @@ struct Beam {
   //   enter  at which depth, at least
   SHOAL_INLINE WideM passes(const TriangleTree::Boxes& boxes, float reach, WideF& enter) const {
     const bool up = sense > 0.0f;
-    const WideF first = WideF::load((up ? boxes.lo : boxes.hi)[axis[0]]), last = WideF::load((up ? boxes.hi : boxes.lo)[axis[0]]);
+    const WideF first = WideF::load((up ? boxes.lo : boxes.hi)[axis[0]]),
+                last = WideF::load((up ? boxes.hi : boxes.lo)[axis[0]]);
     enter = max((first - WideF(up ? base_hi : base_lo)) * WideF(sense), WideF(0.0f));
     const WideF leave = min((last - WideF(up ? base_lo : base_hi)) * WideF(sense), WideF(reach));
     WideM in = enter <= leave;
@@ -81,7 +82,8 @@ class Search {
       return WideF(1.0f) / select(abs(d) < WideF(1e-20f), least_d, d);
     };
     inverse = {inverted(ray.direction_world.x), inverted(ray.direction_world.y), inverted(ray.direction_world.z)};
-    for (int a = 0; a < 3; ++a) along(ray.origin_world, a).store(ray_of[a]), along(ray.direction_world, a).store(ray_of[a + 3]);
+    for (int a = 0; a < 3; ++a)
+      along(ray.origin_world, a).store(ray_of[a]), along(ray.direction_world, a).store(ray_of[a + 3]);
   }
 
   void run(const Heading& heading, WideM of_lanes) {
@@ -116,7 +118,8 @@ class Search {
       const WideF x = (WideF(boxes.lo[a][place]) - origin) * inv, y = (WideF(boxes.hi[a][place]) - origin) * inv;
       enter = max(enter, min(x, y)), leave = min(leave, max(x, y));
     };
-    slab(0, ray.origin_world.x, inverse.x), slab(1, ray.origin_world.y, inverse.y), slab(2, ray.origin_world.z, inverse.z);
+    slab(0, ray.origin_world.x, inverse.x), slab(1, ray.origin_world.y, inverse.y),
+        slab(2, ray.origin_world.z, inverse.z);
     return lanes & (enter <= leave);
   }
   void find_reach(const Beam& beam) { reach = greatest(t * beam.per_t, lanes) * 1.000001f; }
@@ -166,31 +169,41 @@ class Search {
   void meet_by_triangles(const TriangleTree::Leaf& leaf, TriangleTree::Kinds kinds, std::uint32_t triangles) {
     for (std::uint32_t left = triangles; left != 0; left &= left - 1) {
       const int k = __builtin_ctz(left);
-      const auto vector = [k](const float (*v)[TriangleTree::kWidth]) SHOAL_LAMBDA { return Vec3f{v[0][k], v[1][k], v[2][k]}; };
+      const auto vector = [k](const float(*v)[TriangleTree::kWidth]) SHOAL_LAMBDA {
+        return Vec3f{v[0][k], v[1][k], v[2][k]};
+      };
       const Vec3f e1 = vector(leaf.e1), e2 = vector(leaf.e2);
-      const TriangleTest test = test_triangle(ray, broadcast<WideF>(vector(leaf.p0)), broadcast<WideF>(e1), broadcast<WideF>(e2), lanes);
+      const TriangleTest test =
+          test_triangle(ray, broadcast<WideF>(vector(leaf.p0)), broadcast<WideF>(e1), broadcast<WideF>(e2), lanes);
       const WideI candidate(leaf.id[k]);
       WideM met = test.inside & ((test.t < t) | ((test.t == t) & (candidate < id)));
       if (none(met)) continue;
       const std::uint32_t bit = 1u << k;
-      if ((kinds.one_sided & bit) != 0) met = met & (dot(ray.direction_world, broadcast<WideF>(cross(e1, e2))) < WideF(0.0f));
-      if ((kinds.masked & bit) != 0) met = met & mask_from_bits(alpha_bits(f, ray, differential, leaf.id[k], to_bits(met)));
+      if ((kinds.one_sided & bit) != 0)
+        met = met & (dot(ray.direction_world, broadcast<WideF>(cross(e1, e2))) < WideF(0.0f));
+      if ((kinds.masked & bit) != 0)
+        met = met & mask_from_bits(alpha_bits(f, ray, differential, leaf.id[k], to_bits(met)));
       t = select(met, test.t, t);
       id = select(met, candidate, id);
     }
   }
   // Each ray against all triangles.
-  void meet_by_rays(const TriangleTree::Leaf& leaf, TriangleTree::Kinds kinds, std::uint32_t triangles, std::uint32_t passing) {
-    const auto vector = [](const float (*v)[TriangleTree::kWidth]) SHOAL_LAMBDA { return Vec3<WideF>{WideF::load(v[0]), WideF::load(v[1]), WideF::load(v[2])}; };
+  void meet_by_rays(const TriangleTree::Leaf& leaf, TriangleTree::Kinds kinds, std::uint32_t triangles,
+                    std::uint32_t passing) {
+    const auto vector = [](const float(*v)[TriangleTree::kWidth]) SHOAL_LAMBDA {
+      return Vec3<WideF>{WideF::load(v[0]), WideF::load(v[1]), WideF::load(v[2])};
+    };
     const Vec3<WideF> p0 = vector(leaf.p0), e1 = vector(leaf.e1), e2 = vector(leaf.e2);
     alignas(64) float t_of[16];
     alignas(64) std::int32_t id_of[16];
     t.store(t_of), id.store(id_of);
     for (; passing != 0; passing &= passing - 1) {
       const int lane = __builtin_ctz(passing);
-      const Ray<WideF> one = {broadcast<WideF>(Vec3f{ray_of[0][lane], ray_of[1][lane], ray_of[2][lane]}), broadcast<WideF>(Vec3f{ray_of[3][lane], ray_of[4][lane], ray_of[5][lane]})};
+      const Ray<WideF> one = {broadcast<WideF>(Vec3f{ray_of[0][lane], ray_of[1][lane], ray_of[2][lane]}),
+                              broadcast<WideF>(Vec3f{ray_of[3][lane], ray_of[4][lane], ray_of[5][lane]})};
       const TriangleTest test = test_triangle(one, p0, e1, e2, mask_from_bits(triangles));
-      const WideM front = (dot(one.direction_world, cross(e1, e2)) < WideF(0.0f)) | mask_from_bits(~static_cast<std::uint32_t>(kinds.one_sided) & 0xFFFFu);
+      const WideM front = (dot(one.direction_world, cross(e1, e2)) < WideF(0.0f)) |
+                          mask_from_bits(~static_cast<std::uint32_t>(kinds.one_sided) & 0xFFFFu);
       std::uint32_t left = to_bits(test.inside & (test.t <= WideF(t_of[lane])) & front);
       if (left == 0) continue;
       alignas(64) float at[16];
@@ -245,7 +258,8 @@ NearestHit nearest_hits(const FrameData& f, const Ray<WideF>& ray, const RayDiff
   Search search(f, ray, differential, known);
   while (any(lanes)) {
     const Heading heading = find_heading(ray, lanes);
-    const WideM together = lanes & (along(ray.direction_world, heading.axis) * WideF(heading.sense) > WideF(kLeastAlong));
+    const WideM together =
+        lanes & (along(ray.direction_world, heading.axis) * WideF(heading.sense) > WideF(kLeastAlong));
     if (none(together)) break;
     search.run(heading, together);
     lanes = lanes & !together;

@@ -89,8 +89,8 @@ class NarrowPhase {
     return select(lanes & (met.t < hit.t), WideI(kFirstWaterId) + met.body, hit.id);
   }
 
-  NearestHit meet(const VisibilityBuffer* layer, std::optional<EdgeBlocks>& edges, bool mirrored,
-                  const Block& block, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideM lanes) {
+  NearestHit meet(const VisibilityBuffer* layer, std::optional<EdgeBlocks>& edges, bool mirrored, const Block& block,
+                  const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideM lanes) {
     NearestHit known;
     if (layer != nullptr) {
       const WideI own = WideI::load(layer->id.data() + f.layers.offset(block.x_px, block.y_px));
@@ -197,7 +197,9 @@ struct MethodStages {
 
   static void shade(FrameData& f, std::size_t region) { shade_region<M>(f, region); }
 
-  static constexpr MethodKernels kernels() { return {&M::map, &refracted_alpha, M::kFollowsWaves, &narrow, &blend_water, &shade}; }
+  static constexpr MethodKernels kernels() {
+    return {&M::map, &refracted_alpha, M::kFollowsWaves, &narrow, &blend_water, &shade};
+  }
 
   // Of a method that finds by itself what its rays meet, in what it has prepared: no refracted layer is drawn.
   static constexpr MethodKernels kernels_without_layer(decltype(MethodKernels::narrow) finds,

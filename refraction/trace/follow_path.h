@@ -1,6 +1,6 @@
 // Rays followed from water to water: what they meet, and what goes on from there by reflection and refraction, lit as
-// the rasterizer lights it. The ray tracer's pixels begin here; the raster methods' rays come here where they meet water
-// a second time.
+// the rasterizer lights it. The ray tracer's pixels begin here; the raster methods' rays come here where they meet
+// water a second time.
 //
 // Water is its plane, with the waves' normals bent to what a plane can bear, or, displaced, the height field itself:
 // rays may meet it again and again, from both sides.

@@ -18,9 +18,9 @@ struct TraceLimits {
 struct Path : WaterQuery {
   RayDifferential<WideF> differential;
   Vec3<WideF> weight = broadcast<WideF>(Vec3f{1, 1, 1});  // of what they bring
-  WideF clear = WideF(1.0f);   // what blended triangles on the way let through, beside that
-  int level = 1;               // 1: from the eye
-  std::int32_t medium = kAir;  // the body of water that they are in
+  WideF clear = WideF(1.0f);                              // what blended triangles on the way let through, beside that
+  int level = 1;                                          // 1: from the eye
+  std::int32_t medium = kAir;                             // the body of water that they are in
   // What they see where they leave the scene: the background along them, or, mirrored by filtered water, this.
   const Vec3<WideF>* seen_beyond = nullptr;
   // Of the water pixels' hit buffers, at the pixel's centre: what these lanes meet is what the pixel shows.
