@@ -5,8 +5,8 @@
 #   run.sh SHOAL            compares; a failure leaves actual, expected and difference pictures in out/goldens/
 #   run.sh SHOAL --update   writes what SHOAL makes instead (scripts/update_goldens does this, and asks for the reason)
 #
-# A golden is SCENE_CAMERA_METHOD.txt (for a file asset-FILE_CAMERA_TIME.txt), the digest of each stage, and .png, the
-# picture. There is no tolerance. A golden that is missing fails, and so does one that belongs to no scene, camera or
+# A golden is SCENE_CAMERA_METHOD.txt (with the options of water.list WATER_METHOD.txt, for a file
+# asset-FILE_CAMERA_TIME.txt), the digest of each stage, and .png, the picture. There is no tolerance. A golden that is missing fails, and so does one that belongs to no scene, camera or
 # method.
 set -uo pipefail
 shoal=$(realpath "${1:?usage: run.sh SHOAL [--update]}")
@@ -75,13 +75,20 @@ frame() {
   echo "$name"
 }
 
+methods=$("$shoal" list methods | awk '!/not the same bytes/ { print $1 }')
 for scene in "${scenes[@]}"; do
   for camera in $(cameras_of "$scene"); do
-    for method in $("$shoal" list methods | awk '!/not the same bytes/ { print $1 }'); do
+    for method in $methods; do
       frame "${scene}_${camera}_$method" "$scene" --camera "$camera" --method "$method" "${options[@]}"
     done
   done
 done
+while read -r name arguments; do
+  for method in $methods; do
+    # shellcheck disable=SC2086  # arguments are words
+    frame "${name}_$method" $arguments --method "$method" "${options[@]}"
+  done
+done <$goldens/water.list
 while read -r asset camera time; do
   frame "asset-${asset}_${camera}_$time" "$assets/$asset.glb" --camera "$camera" --time "$time" "${asset_options[@]}"
 done <$goldens/assets.list
