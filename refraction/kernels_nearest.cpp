@@ -7,8 +7,8 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
-// Nodes that wait: at most fifteen a level, and no scene that fits into memory has ten levels.
-constexpr int kMostWaiting = 160;
+// Nodes that wait: at most fifteen a level, and one.
+constexpr int kMostWaiting = 15 * TriangleTree::kMostLevels + 1;
 
 // Rays go together where, along some axis, all go one way by at least this much.
 constexpr float kLeastAlong = 0.2f;

@@ -115,15 +115,21 @@ struct Split {
 class Builder {
  public:
   // Ranges of at most task_size are left to others: they are in `tasks`, as leaves of `splits`.
-  Builder(std::vector<Item>& of, Range range, std::size_t task_size) : items(of), least(task_size) { split(range); }
+  Builder(std::vector<Item>& of, Range range, int level, std::size_t task_size) : items(of), least(task_size) {
+    split(range, level);
+  }
 
-  std::vector<Split> splits;        // the root first, halves after what they are halves of
-  std::vector<std::int32_t> tasks;  // splits
+  struct Task {
+    std::int32_t split;
+    int level;
+  };
+  std::vector<Split> splits;  // the root first, halves after what they are halves of
+  std::vector<Task> tasks;
 
  private:
   static constexpr int kBins = 16;
 
-  std::int32_t split(Range range) {
+  std::int32_t split(Range range, int level) {
     const std::int32_t at = static_cast<std::int32_t>(splits.size());
     Bounds bounds, middles;
     for (std::size_t i = range.first; i < range.first + range.count; ++i) {
@@ -135,12 +141,13 @@ class Builder {
     splits.push_back({range, bounds.area()});
     if (range.count <= TriangleTree::kWidth) return at;
     if (range.count <= least) {
-      tasks.push_back(at);
+      tasks.push_back({at, level});
       return at;
     }
-    const std::size_t half = divide(range, middles);
-    const std::int32_t left = split({range.first, half});
-    const std::int32_t right = split({range.first + half, range.count - half});
+    // However they lie, there are no more than kMostLevels: halves of 2^31 are leaves after 27.
+    const std::size_t half = level < TriangleTree::kMostLevels - 28 ? divide(range, middles) : range.count / 2;
+    const std::int32_t left = split({range.first, half}, level + 1);
+    const std::int32_t right = split({range.first + half, range.count - half}, level + 1);
     splits[static_cast<std::size_t>(at)].left = left, splits[static_cast<std::size_t>(at)].right = right;
     return at;
   }
@@ -195,10 +202,11 @@ class Builder {
 
 // The same tree for any number of threads.
 std::vector<Split> split_all(std::vector<Item>& items, ThreadPool& pool) {
-  Builder top(items, {0, items.size()}, std::max(items.size() / 64, std::size_t{4096}));
+  Builder top(items, {0, items.size()}, 0, std::max(items.size() / 64, std::size_t{4096}));
   std::vector<std::vector<Split>> parts(top.tasks.size());
   pool.for_each(parts.size(), [&](std::size_t i, int) {
-    Builder part(items, top.splits[static_cast<std::size_t>(top.tasks[i])].items, 0);
+    const Builder::Task& task = top.tasks[i];
+    Builder part(items, top.splits[static_cast<std::size_t>(task.split)].items, task.level, 0);
     parts[i] = std::move(part.splits);
   });
   std::vector<Split> all = std::move(top.splits);
@@ -207,7 +215,7 @@ std::vector<Split> split_all(std::vector<Item>& items, ThreadPool& pool) {
     const std::int32_t moved = static_cast<std::int32_t>(all.size()) - 1;
     for (Split& split : parts[i])
       if (split.left >= 0) split.left += moved, split.right += moved;
-    all[static_cast<std::size_t>(top.tasks[i])] = parts[i][0];
+    all[static_cast<std::size_t>(top.tasks[i].split)] = parts[i][0];
     all.insert(all.end(), parts[i].begin() + 1, parts[i].end());
   }
   // Halves come after what they are halves of.

@@ -18,6 +18,7 @@ namespace shoal {
 struct TriangleTree {
   static constexpr int kWidth = 16;
   static constexpr std::int32_t kNone = 0x7FFFFFFF;
+  static constexpr int kMostLevels = 68;  // of nodes, whatever the scene
   // Boxes, world, m, by axis; empty places hold an inverted one.
   struct alignas(64) Boxes {
     float lo[3][kWidth], hi[3][kWidth];

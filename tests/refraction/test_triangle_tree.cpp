@@ -150,6 +150,32 @@ TEST_CASE("triangle tree: the nearest of all triangles", "[refraction]") {
   }
 }
 
+TEST_CASE("triangle tree: a bounded depth, however triangles lie", "[refraction]") {
+  // Each a third of the way of the one before from a corner: halving by place takes off a few at a time.
+  Soup soup(3000);
+  float size = 1e18f;
+  for (VertexRecord& v : soup.geometry.vertices) {
+    v.position_world = v.position_world * (size * 1e-2f);
+    size = size < 1e-36f ? 1e18f : size * 0.93f;
+  }
+  ThreadPool pool(2);
+  TriangleTree tree;
+  tree.build(soup.geometry, soup.materials, pool);
+  std::vector<int> height(tree.nodes.size(), 1);
+  std::size_t triangles = 0;
+  for (std::size_t n = 0; n < tree.nodes.size(); ++n)
+    for (const std::int32_t child : tree.nodes[n].child) {
+      if (child == TriangleTree::kNone) continue;
+      if (child < 0)
+        triangles += static_cast<std::size_t>(__builtin_popcount(tree.kinds[static_cast<std::size_t>(~child)].there));
+      else
+        height[n] = std::max(height[n], height[static_cast<std::size_t>(child)] + 1);
+    }
+  CHECK(triangles == 3000);
+  CHECK(height.back() > 3);
+  CHECK(height.back() <= TriangleTree::kMostLevels);
+}
+
 TEST_CASE("triangle tree: of nothing, and of what is blended", "[refraction]") {
   Soup soup(200);
   for (Material& m : soup.materials.materials) m.alpha_mode = AlphaMode::kBlend;
