@@ -142,7 +142,7 @@ class Search {
   }
 
   // Boxes of a leaf's triangles, grown as triangle_tree.cpp does.
-  static void find_boxes(const TriangleTree::Leaf& leaf, TriangleTree::Boxes& boxes) {
+  static void find_boxes(const TriangleTree::Corners& leaf, TriangleTree::Boxes& boxes) {
     for (int a = 0; a < 3; ++a) {
       const WideF p0 = WideF::load(leaf.p0[a]), e1 = WideF::load(leaf.e1[a]), e2 = WideF::load(leaf.e2[a]);
       const WideF lo = p0 + min(min(e1, e2), WideF(0.0f)), hi = p0 + max(max(e1, e2), WideF(0.0f));
@@ -154,27 +154,32 @@ class Search {
   void meet(const Beam& beam, std::size_t at, WideM passing) {
     const TriangleTree::Leaf& leaf = f.tree->leaves[at];
     const TriangleTree::Kinds kinds = f.tree->kinds[at];
+    TriangleTree::Corners read;
+    const bool kept = f.tree->corners.size() != 0;
+    if (!kept) find_corners(f.geometry.triangles, f.geometry.vertices, leaf, read);
+    const TriangleTree::Corners& corners = kept ? f.tree->corners[at] : read;
     TriangleTree::Boxes boxes;
-    find_boxes(leaf, boxes);
+    find_boxes(corners, boxes);
     WideF enter;
     const std::uint32_t near_beam = to_bits(beam.passes(boxes, reach, enter)) & kinds.there;
     if (near_beam == 0) return;
     if (__builtin_popcount(near_beam) <= __builtin_popcount(to_bits(passing)))
-      meet_by_triangles(leaf, kinds, near_beam);
+      meet_by_triangles(leaf, corners, kinds, near_beam);
     else
-      meet_by_rays(leaf, kinds, near_beam, to_bits(passing));
+      meet_by_rays(leaf, corners, kinds, near_beam, to_bits(passing));
     find_reach(beam);
   }
   // Each triangle against all rays.
-  void meet_by_triangles(const TriangleTree::Leaf& leaf, TriangleTree::Kinds kinds, std::uint32_t triangles) {
+  void meet_by_triangles(const TriangleTree::Leaf& leaf, const TriangleTree::Corners& corners,
+                         TriangleTree::Kinds kinds, std::uint32_t triangles) {
     for (std::uint32_t left = triangles; left != 0; left &= left - 1) {
       const int k = __builtin_ctz(left);
       const auto vector = [k](const float(*v)[TriangleTree::kWidth]) SHOAL_LAMBDA {
         return Vec3f{v[0][k], v[1][k], v[2][k]};
       };
-      const Vec3f e1 = vector(leaf.e1), e2 = vector(leaf.e2);
+      const Vec3f e1 = vector(corners.e1), e2 = vector(corners.e2);
       const TriangleTest test =
-          test_triangle(ray, broadcast<WideF>(vector(leaf.p0)), broadcast<WideF>(e1), broadcast<WideF>(e2), lanes);
+          test_triangle(ray, broadcast<WideF>(vector(corners.p0)), broadcast<WideF>(e1), broadcast<WideF>(e2), lanes);
       const WideI candidate(leaf.id[k]);
       WideM met = test.inside & ((test.t < t) | ((test.t == t) & (candidate < id)));
       if (none(met)) continue;
@@ -188,12 +193,12 @@ class Search {
     }
   }
   // Each ray against all triangles.
-  void meet_by_rays(const TriangleTree::Leaf& leaf, TriangleTree::Kinds kinds, std::uint32_t triangles,
-                    std::uint32_t passing) {
+  void meet_by_rays(const TriangleTree::Leaf& leaf, const TriangleTree::Corners& corners, TriangleTree::Kinds kinds,
+                    std::uint32_t triangles, std::uint32_t passing) {
     const auto vector = [](const float(*v)[TriangleTree::kWidth]) SHOAL_LAMBDA {
       return Vec3<WideF>{WideF::load(v[0]), WideF::load(v[1]), WideF::load(v[2])};
     };
-    const Vec3<WideF> p0 = vector(leaf.p0), e1 = vector(leaf.e1), e2 = vector(leaf.e2);
+    const Vec3<WideF> p0 = vector(corners.p0), e1 = vector(corners.e1), e2 = vector(corners.e2);
     alignas(64) float t_of[16];
     alignas(64) std::int32_t id_of[16];
     t.store(t_of), id.store(id_of);

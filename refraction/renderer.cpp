@@ -86,7 +86,7 @@ struct Renderer::Impl {
     f.water_bins.items.resize(scene.waters.size());
     if (!scene.waters.empty() && method.kernels.trace == nullptr) {
       f.tree = std::make_unique<TriangleTree>();
-      f.tree->build(scene.geometry, scene.materials, pool);
+      f.tree->build(scene.geometry, scene.materials, waves, pool);
     }
     read_method_options(method, settings.method_options, f.method_option);
     if (method.kernels.trace != nullptr || settings.shadows == Shadows::kRays) {

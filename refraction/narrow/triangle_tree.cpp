@@ -1,6 +1,7 @@
 #include "refraction/narrow/triangle_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -54,20 +55,6 @@ Box box_of(const TriangleTree::Boxes& boxes) {
   return box;
 }
 
-void find_corners(const Geometry& geometry, TriangleTree::Leaf& leaf) {
-  for (int k = 0; k < TriangleTree::kWidth; ++k) {
-    const auto put = [k](float(*to)[TriangleTree::kWidth], Vec3f v) { to[0][k] = v.x, to[1][k] = v.y, to[2][k] = v.z; };
-    Vec3f p0{0, 0, 0}, e1 = p0, e2 = p0;
-    if (leaf.id[k] != TriangleTree::kNone) {
-      const Geometry::TriangleRecord& r = geometry.triangles[static_cast<std::size_t>(leaf.id[k])];
-      p0 = geometry.vertices[r.vertex[0]].position_world;
-      e1 = geometry.vertices[r.vertex[1]].position_world - p0;
-      e2 = geometry.vertices[r.vertex[2]].position_world - p0;
-    }
-    put(leaf.p0, p0), put(leaf.e1, e1), put(leaf.e2, e2);
-  }
-}
-
 // Calls body(i) for each i below count, many at a time.
 template <class Body>
 void for_ranges(ThreadPool& pool, std::size_t count, Body body) {
@@ -92,10 +79,10 @@ struct Bounds {
   }
 };
 
-// A triangle and its box.
+// A triangle and its box; its id is in the place that does not count.
 struct Item {
   Float4 lo, hi;
-  std::int32_t triangle;
+  std::int32_t triangle() const { return std::bit_cast<std::int32_t>(float{hi[3]}); }
 };
 
 struct Range {
@@ -237,7 +224,7 @@ std::vector<Item> opaque_items(const Geometry& geometry, const Materials& materi
   for_ranges(pool, items.size(), [&](std::size_t i) {
     const Box box = box_of(geometry, triangles[i]);
     const Vec3f lo = box.lo, hi = box.hi;
-    items[i] = Item{Float4{lo.x, lo.y, lo.z, 0.0f}, Float4{hi.x, hi.y, hi.z, 0.0f}, triangles[i]};
+    items[i] = Item{Float4{lo.x, lo.y, lo.z, 0.0f}, Float4{hi.x, hi.y, hi.z, std::bit_cast<float>(triangles[i])}};
   });
   return items;
 }
@@ -267,16 +254,17 @@ int open_split(const std::vector<Split>& splits, std::int32_t (&parts)[TriangleT
 
 }  // namespace
 
-void TriangleTree::build(const Geometry& geometry, const Materials& materials, ThreadPool& pool) {
-  nodes.clear(), leaves.clear(), kinds.clear();
+void TriangleTree::build(const Geometry& geometry, const Materials& materials, bool with_corners, ThreadPool& pool) {
+  nodes.clear(), leaves.clear(), kinds.clear(), corners.clear();
   std::vector<Item> items = opaque_items(geometry, materials, pool);
   if (items.empty()) return;
   const std::vector<Split> splits = split_all(items, pool);
+  leaves.reserve(static_cast<std::size_t>(splits[0].leaves)), kinds.reserve(static_cast<std::size_t>(splits[0].leaves));
   const auto make_leaf = [&](Range of) {
     Leaf& leaf = leaves.push();
     Kinds kind{};
     for (std::size_t k = 0; k < kWidth; ++k) {
-      leaf.id[k] = k < of.count ? items[of.first + k].triangle : kNone;
+      leaf.id[k] = k < of.count ? items[of.first + k].triangle() : kNone;
       if (k >= of.count) continue;
       const std::uint16_t bit = static_cast<std::uint16_t>(1u << k);
       const Material& material = materials.materials[geometry.triangles[static_cast<std::size_t>(leaf.id[k])].material];
@@ -302,13 +290,14 @@ void TriangleTree::build(const Geometry& geometry, const Materials& materials, T
     return static_cast<std::int32_t>(nodes.size() - 1);
   };
   make_node(make_node, 0);
+  corners.resize(with_corners ? leaves.size() : 0);
   refit(geometry, pool);
 }
 
 void TriangleTree::refit(const Geometry& geometry, ThreadPool& pool) {
   std::vector<Box> leaf_box(leaves.size());
   for_ranges(pool, leaves.size(), [&](std::size_t i) {
-    find_corners(geometry, leaves[i]);
+    if (corners.size() != 0) find_corners(geometry.triangles.data(), geometry.vertices.data(), leaves[i], corners[i]);
     leaf_box[i] = box_of(geometry, leaves[i]);
   });
   // Children come before their parents. Empty places keep their inverted boxes.

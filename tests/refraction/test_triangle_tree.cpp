@@ -139,7 +139,7 @@ TEST_CASE("triangle tree: the nearest of all triangles", "[refraction]") {
     f.geometry = view_of(soup.geometry, soup.materials);
     f.tree = std::make_unique<TriangleTree>();
     ThreadPool pool(count == 300 ? 1 : 2);
-    f.tree->build(soup.geometry, soup.materials, pool);
+    f.tree->build(soup.geometry, soup.materials, count != 300, pool);
     INFO(count << " triangles");
     REQUIRE(check_rays(soup, f, 40) > 400);
     // After everything has moved, by the same boxes' tree.
@@ -160,7 +160,7 @@ TEST_CASE("triangle tree: a bounded depth, however triangles lie", "[refraction]
   }
   ThreadPool pool(2);
   TriangleTree tree;
-  tree.build(soup.geometry, soup.materials, pool);
+  tree.build(soup.geometry, soup.materials, false, pool);
   std::vector<int> height(tree.nodes.size(), 1);
   std::size_t triangles = 0;
   for (std::size_t n = 0; n < tree.nodes.size(); ++n)
@@ -183,7 +183,7 @@ TEST_CASE("triangle tree: of nothing, and of what is blended", "[refraction]") {
   f.geometry = view_of(soup.geometry, soup.materials);
   f.tree = std::make_unique<TriangleTree>();
   ThreadPool pool(1);
-  f.tree->build(soup.geometry, soup.materials, pool);
+  f.tree->build(soup.geometry, soup.materials, true, pool);
   const Ray<WideF> ray = {broadcast<WideF>(Vec3f{0, 0, 20}), broadcast<WideF>(Vec3f{0, 0, -1})};
   alignas(64) std::int32_t id[16];
   nearest_hits(f, ray, {}, {}, mask_from_bits(0xFFFFu)).id.store(id);
