@@ -29,21 +29,22 @@ static Vec3<WideF> light_under_water(const WaterPass& water, const Lighting& lig
 struct SceneSun {
   const FrameData& frame;
   const WaterPass* water;
-  const SunMap* map;
+  const SunMap* map;         // null: open, or by rays
+  const ShadowPlace& place;  // in the map's first level
   const PixelAttributes<WideF>& at;
+  Vec3<WideF> facet;  // unit
   WideM active;
 
   template <class F>
   SHOAL_INLINE Vec3<F> reach(Vec3<F> irradiance, WideM facing) const {
     const WideM lanes = facing & active;
     if (none(lanes)) return irradiance;
-    const Vec3<WideF> facet = normalize(at.facet_world);
     if (frame.settings.shadows == Shadows::kRays) {
       const WideM dark = sun_blocked(frame, water, at.position_world, facet, lanes);
       return select<F>(dark, broadcast<F>(Vec3f{0, 0, 0}), irradiance);
     }
     if (map == nullptr) return irradiance;
-    return irradiance * sun_visibility(*map, at.position_world, at.normal_world, facet, lanes);
+    return irradiance * sun_visibility(*map, place, at.position_world, at.normal_world, facet, lanes);
   }
 };
 
@@ -52,6 +53,11 @@ void shade_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential
   PixelAttributes<WideF> a;
   resolve_attributes(f.geometry, ray, differential, id, active, a);
   const Vec3<WideF> to_eye = -normalize(ray.direction_world);
+  // The shadow map's texels are on their way while the material is worked on.
+  const SunMap* map = water != nullptr ? f.shadows.of_body(static_cast<std::size_t>(water->index)) : f.shadows.air();
+  const Vec3<WideF> facet = normalize(a.facet_world);
+  ShadowPlace place;
+  if (map != nullptr) find_place(map->levels[0], a.position_world, a.normal_world, facet, place);
 
   const Materials& all_materials = f.scene->materials;
   bool first = true;
@@ -80,9 +86,8 @@ void shade_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential
   });
   const Vec3<WideF> light_scale = water != nullptr ? light_under_water(*water, f.scene->lighting, a.position_world)
                                                    : broadcast<WideF>(Vec3f{1, 1, 1});
-  const SunMap* map = water != nullptr ? f.shadows.of_body(static_cast<std::size_t>(water->index)) : f.shadows.air();
-  out.radiance =
-      shade<WideF>(out.surface, unlit, to_eye, f.scene->lighting, light_scale, SceneSun{f, water, map, a, active});
+  out.radiance = shade<WideF>(out.surface, unlit, to_eye, f.scene->lighting, light_scale,
+                              SceneSun{f, water, map, place, a, facet, active});
   out.t = a.t;
 }
 
