@@ -48,6 +48,24 @@ struct SceneSun {
   }
 };
 
+// The lanes of one material's points, beside others'; the first one's all.
+static SHOAL_INLINE void put_surface(const SurfaceSample<WideF>& s, WideM lanes, bool first, SurfaceSample<WideF>& to) {
+  if (first) {
+    to.position_world = s.position_world, to.normal_world = s.normal_world, to.base_color = s.base_color;
+    to.alpha = s.alpha, to.metallic = s.metallic, to.roughness = s.roughness, to.emissive = s.emissive;
+    to.f0_dielectric = s.f0_dielectric, to.occlusion = s.occlusion;
+    return;
+  }
+  to.normal_world = select<WideF>(lanes, s.normal_world, to.normal_world);
+  to.base_color = select<WideF>(lanes, s.base_color, to.base_color);
+  to.alpha = select(lanes, s.alpha, to.alpha);
+  to.metallic = select(lanes, s.metallic, to.metallic);
+  to.roughness = select(lanes, s.roughness, to.roughness);
+  to.emissive = select<WideF>(lanes, s.emissive, to.emissive);
+  to.f0_dielectric = select(lanes, s.f0_dielectric, to.f0_dielectric);
+  to.occlusion = select(lanes, s.occlusion, to.occlusion);
+}
+
 void shade_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideI id,
                 WideM active, const WaterPass* water, ShadedLanes& out) {
   PixelAttributes<WideF> a;
@@ -69,20 +87,8 @@ void shade_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential
                                                  at.duv_dx, at.duv_dy, a.color, to_eye, lanes);
     if (material.has_maps()) apply_maps(f.geometry, material, all_materials, a, to_eye, lanes, s);
     if (material.unlit) unlit = unlit | lanes;
-    if (first) {
-      out.surface = s;
-      first = false;
-      return;
-    }
-    SurfaceSample<WideF>& to = out.surface;
-    to.normal_world = select<WideF>(lanes, s.normal_world, to.normal_world);
-    to.base_color = select<WideF>(lanes, s.base_color, to.base_color);
-    to.alpha = select(lanes, s.alpha, to.alpha);
-    to.metallic = select(lanes, s.metallic, to.metallic);
-    to.roughness = select(lanes, s.roughness, to.roughness);
-    to.emissive = select<WideF>(lanes, s.emissive, to.emissive);
-    to.f0_dielectric = select(lanes, s.f0_dielectric, to.f0_dielectric);
-    to.occlusion = select(lanes, s.occlusion, to.occlusion);
+    put_surface(s, lanes, first, out.surface);
+    first = false;
   });
   const Vec3<WideF> light_scale = water != nullptr ? light_under_water(*water, f.scene->lighting, a.position_world)
                                                    : broadcast<WideF>(Vec3f{1, 1, 1});
