@@ -94,11 +94,14 @@ SHOAL_INLINE IntOf<F> encode_srgb8(F linear) {
 SHOAL_INLINE void store_rgb8_block(std::uint8_t* pixels, std::size_t row_bytes, WideI r, WideI g, WideI b) {
   alignas(64) std::int32_t packed[16];
   (r | (g << 8) | (b << 16)).store(packed);
+  // Twelve bytes as two words made in registers: an array of smaller ones is read back before it is in memory.
   for (int y = 0; y < 4; ++y, pixels += row_bytes) {
     std::uint32_t p[4];
     std::memcpy(p, packed + 4 * y, sizeof p);
-    const std::uint32_t bytes[3] = {p[0] | p[1] << 24, p[1] >> 8 | p[2] << 16, p[2] >> 16 | p[3] << 8};
-    std::memcpy(pixels, bytes, sizeof bytes);
+    const std::uint64_t first = p[0] | static_cast<std::uint64_t>(p[1]) << 24 | static_cast<std::uint64_t>(p[2]) << 48;
+    const std::uint32_t last = p[2] >> 16 | p[3] << 8;
+    std::memcpy(pixels, &first, sizeof first);
+    std::memcpy(pixels + sizeof first, &last, sizeof last);
   }
 }
 

@@ -66,12 +66,12 @@ __attribute__((noinline)) inline WideF triangle_distance(const GeometryView& g, 
   return t;
 }
 
-// Three corners of the triangle of every lane.
+// The corners of the triangle of every lane. Not their differences: those are cheaper once for all lanes than once for
+// each triangle.
 struct TriangleLanes {
-  Vec3<WideF> p0, e1, e2;
+  Vec3<WideF> p0, p1, p2;
   Vec3<WideF> n0, n1, n2;
-  Vec2<WideF> uv0, duv1, duv2;
-  Vec4<WideF> c0, dc1, dc2;  // COLOR_0 likewise; untouched where the geometry has none
+  Vec2<WideF> uv0, uv1, uv2;
   WideI material;
 };
 
@@ -80,41 +80,24 @@ SHOAL_INLINE TriangleLanes fetch_triangle(const GeometryView& g, std::int32_t id
   const Geometry::TriangleRecord& t = g.triangles[id];
   const VertexRecord &a = g.vertices[t.vertex[0]], &b = g.vertices[t.vertex[1]], &c = g.vertices[t.vertex[2]];
   return {broadcast<WideF>(a.position_world),
-          broadcast<WideF>(b.position_world - a.position_world),
-          broadcast<WideF>(c.position_world - a.position_world),
+          broadcast<WideF>(b.position_world),
+          broadcast<WideF>(c.position_world),
           broadcast<WideF>(a.normal_world),
           broadcast<WideF>(b.normal_world),
           broadcast<WideF>(c.normal_world),
           broadcast<WideF>(a.uv),
-          broadcast<WideF>(b.uv - a.uv),
-          broadcast<WideF>(c.uv - a.uv),
-          {},
-          {},
-          {},
+          broadcast<WideF>(b.uv),
+          broadcast<WideF>(c.uv),
           WideI(static_cast<std::int32_t>(t.material))};
 }
 SHOAL_INLINE void merge_triangle(TriangleLanes& to, const TriangleLanes& t, WideM lanes) {
-  to.p0 = select<WideF>(lanes, t.p0, to.p0), to.e1 = select<WideF>(lanes, t.e1, to.e1),
-  to.e2 = select<WideF>(lanes, t.e2, to.e2);
+  to.p0 = select<WideF>(lanes, t.p0, to.p0), to.p1 = select<WideF>(lanes, t.p1, to.p1),
+  to.p2 = select<WideF>(lanes, t.p2, to.p2);
   to.n0 = select<WideF>(lanes, t.n0, to.n0), to.n1 = select<WideF>(lanes, t.n1, to.n1),
   to.n2 = select<WideF>(lanes, t.n2, to.n2);
-  to.uv0 = select<WideF>(lanes, t.uv0, to.uv0);
-  to.duv1 = select<WideF>(lanes, t.duv1, to.duv1), to.duv2 = select<WideF>(lanes, t.duv2, to.duv2);
+  to.uv0 = select<WideF>(lanes, t.uv0, to.uv0), to.uv1 = select<WideF>(lanes, t.uv1, to.uv1),
+  to.uv2 = select<WideF>(lanes, t.uv2, to.uv2);
   to.material = select(lanes, t.material, to.material);
-}
-SHOAL_INLINE void merge_colors(const GeometryView& g, std::int32_t id, WideM lanes, TriangleLanes& to) {
-  const Geometry::TriangleRecord& t = g.triangles[id];
-  const Vec4f &a = g.colors[t.vertex[0]], &b = g.colors[t.vertex[1]], &c = g.colors[t.vertex[2]];
-  auto channel = [&](WideF& c0, WideF& dc1, WideF& dc2, float fa, float fb, float fc) SHOAL_LAMBDA {
-    c0 = select(lanes, WideF(fa), c0), dc1 = select(lanes, WideF(fb - fa), dc1),
-    dc2 = select(lanes, WideF(fc - fa), dc2);
-  };
-  channel(to.c0.x, to.dc1.x, to.dc2.x, a.x, b.x, c.x), channel(to.c0.y, to.dc1.y, to.dc2.y, a.y, b.y, c.y);
-  channel(to.c0.z, to.dc1.z, to.dc2.z, a.z, b.z, c.z), channel(to.c0.w, to.dc1.w, to.dc2.w, a.w, b.w, c.w);
-}
-SHOAL_INLINE Vec4<WideF> interpolate_color(const TriangleLanes& t, WideF u, WideF v) {
-  return {(t.c0.x + t.dc1.x * u) + t.dc2.x * v, (t.c0.y + t.dc1.y * u) + t.dc2.y * v,
-          (t.c0.z + t.dc1.z * u) + t.dc2.z * v, (t.c0.w + t.dc1.w * u) + t.dc2.w * v};
 }
 
 // Barycentrics brought into the triangle: coverage is decided on the pixel grid and may exceed the triangle by 1/512 px
@@ -122,6 +105,24 @@ SHOAL_INLINE Vec4<WideF> interpolate_color(const TriangleLanes& t, WideF u, Wide
 SHOAL_INLINE void clamp_to_triangle(WideF& u, WideF& v) {
   u = clamp(u, WideF(0.0f), WideF(1.0f));
   v = clamp(v, WideF(0.0f), WideF(1.0f) - u);
+}
+
+// COLOR_0. On its own: with the other corners it would be more than the registers hold.
+__attribute__((noinline)) inline void resolve_color(const GeometryView& g, WideI id, WideM active, WideF u, WideF v,
+                                                    PixelAttributes<WideF>& out) {
+  const WideF zero(0.0f);
+  Vec4<WideF> c0{zero, zero, zero, zero}, c1 = c0, c2 = c0;
+  const auto put = [](WideM lanes, const Vec4f& c, Vec4<WideF>& to) SHOAL_LAMBDA {
+    to.x = select(lanes, WideF(c.x), to.x), to.y = select(lanes, WideF(c.y), to.y);
+    to.z = select(lanes, WideF(c.z), to.z), to.w = select(lanes, WideF(c.w), to.w);
+  };
+  const auto put_all = [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
+    const Geometry::TriangleRecord& t = g.triangles[one];
+    put(lanes, g.colors[t.vertex[0]], c0), put(lanes, g.colors[t.vertex[1]], c1), put(lanes, g.colors[t.vertex[2]], c2);
+  };
+  for_each_distinct(id, active, put_all);
+  const auto mixed = [&](WideF a, WideF b, WideF c) SHOAL_LAMBDA { return (a + (b - a) * u) + (c - a) * v; };
+  out.color = {mixed(c0.x, c1.x, c2.x), mixed(c0.y, c1.y, c2.y), mixed(c0.z, c1.z, c2.z), mixed(c0.w, c1.w, c2.w)};
 }
 
 // The second set of coordinates, interpolated as the first.
@@ -169,29 +170,30 @@ __attribute__((noinline)) inline void resolve_attributes(const GeometryView& g, 
                                                          WideM active, PixelAttributes<WideF>& out) {
   const std::int32_t first = first_value(id, active);
   TriangleLanes t = fetch_triangle(g, first);
-  if (g.colors != nullptr) merge_colors(g, first, mask_from_bits(0xFFFFu), t);
   for_each_distinct(id, active & (id != WideI(first)), [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
     merge_triangle(t, fetch_triangle(g, one), lanes);
-    if (g.colors != nullptr) merge_colors(g, one, lanes, t);
   });
-  const TriangleHit<WideF> hit = intersect_triangle(ray, t.p0, t.e1, t.e2);
-  const TriangleHitDerivatives<WideF> d = hit_derivatives(ray, differential, t.p0, t.e1, t.e2, hit);
+  const Vec3<WideF> e1 = t.p1 - t.p0, e2 = t.p2 - t.p0;
+  const TriangleHit<WideF> hit = intersect_triangle(ray, t.p0, e1, e2);
+  const TriangleHitDerivatives<WideF> d = hit_derivatives(ray, differential, t.p0, e1, e2, hit);
   WideF u = hit.u, v = hit.v;
   clamp_to_triangle(u, v);
   const WideF w = (WideF(1.0f) - u) - v;
   out.t = hit.t;
-  out.position_world = t.p0 + t.e1 * u + t.e2 * v;
+  out.position_world = t.p0 + e1 * u + e2 * v;
   // Seen from behind (double-sided materials), the normal turns to the viewer.
   const Vec3<WideF> normal = normalize(t.n0 * w + t.n1 * u + t.n2 * v);
-  out.facet_world = cross(t.e1, t.e2);
+  out.facet_world = cross(e1, e2);
   const WideM behind = dot(out.facet_world, ray.direction_world) > WideF(0.0f);
   out.normal_world = select<WideF>(behind, -normal, normal);
-  out.uv = t.uv0 + t.duv1 * u + t.duv2 * v;
-  out.duv_dx = t.duv1 * d.u_dx + t.duv2 * d.v_dx;
-  out.duv_dy = t.duv1 * d.u_dy + t.duv2 * d.v_dy;
-  const WideF one(1.0f);
-  out.color = g.colors != nullptr ? interpolate_color(t, u, v) : Vec4<WideF>{one, one, one, one};
+  const Vec2<WideF> duv1 = t.uv1 - t.uv0, duv2 = t.uv2 - t.uv0;
+  out.uv = t.uv0 + duv1 * u + duv2 * v;
+  out.duv_dx = duv1 * d.u_dx + duv2 * d.v_dx;
+  out.duv_dy = duv1 * d.u_dy + duv2 * d.v_dy;
   out.material = t.material;
+  const WideF one(1.0f);
+  out.color = {one, one, one, one};
+  if (g.colors != nullptr) resolve_color(g, id, active, u, v, out);
   if (g.uvs1 != nullptr) resolve_uv1(g, id, active, u, v, d, out);
   if (g.tangents != nullptr) resolve_tangent(g, id, active, u, v, behind, out);
 }

@@ -97,6 +97,9 @@ SHOAL_INLINE WideTexel lerp_texels(const WideTexel& a, const WideTexel& b, WideI
 }
 
 namespace texel_detail {
+// Else GCC takes each index out of the register that was stored, which costs several times as much.
+SHOAL_INLINE void read_from_memory(std::int32_t (&index)[16]) { asm("" : "+m"(index)); }
+
 // Lane i's upper pair is at top + i-th of `at`, its lower pair at bottom + i-th of `at_bottom`.
 SHOAL_INLINE WideTexel bilinear(const std::uint64_t* top, const std::int32_t* at, const std::uint64_t* bottom,
                                 const std::int32_t* at_bottom, WideI wx, WideI wy) {
@@ -123,12 +126,14 @@ SHOAL_INLINE WideTexel bilinear_texels(const std::uint64_t* texels, std::int32_t
                                        WideI wy) {
   alignas(64) std::int32_t at[16];
   index.store(at);
+  texel_detail::read_from_memory(at);
   return texel_detail::bilinear(texels, at, texels + stride, at, wx, wy);
 }
 SHOAL_INLINE WideTexel bilinear_texels(const std::uint64_t* texels, WideI stride, WideI index, WideI wx, WideI wy) {
   alignas(64) std::int32_t at[16], at_bottom[16];
   index.store(at);
   (index + stride).store(at_bottom);
+  texel_detail::read_from_memory(at), texel_detail::read_from_memory(at_bottom);
   return texel_detail::bilinear(texels, at, texels, at_bottom, wx, wy);
 }
 

@@ -289,16 +289,24 @@ SHOAL_INLINE void prefetch_ids(const FrameData& f, std::size_t offset) {
 }
 
 // Asks for the triangles of the next blocks of the row while this one is worked on: records two blocks ahead, their
-// vertices one block ahead. Reads ids only; what it asks for wrongly costs nothing.
+// vertices one block ahead; of water, those that show through it. Reads ids only; what it asks for wrongly costs
+// nothing.
 SHOAL_INLINE void prefetch_triangles(const FrameData& f, std::size_t offset) {
-  constexpr int kLanes[] = {0, 3, 9, 14};
+  constexpr std::size_t kLanes[] = {0, 3, 6, 9, 12, 14};
   if (offset + 3 * kBlockPixels > f.direct.id.size()) return;
-  const std::int32_t* next = f.direct.id.data() + offset + kBlockPixels;
+  const std::size_t near_block = offset + kBlockPixels, far_block = near_block + kBlockPixels;
   const std::int32_t count = static_cast<std::int32_t>(f.scene->geometry.triangles.size());
-  for (const int lane : kLanes) {
-    const std::int32_t far_id = next[kBlockPixels + lane], near_id = next[lane];
+  const auto shown = [&](std::size_t at) SHOAL_LAMBDA {
+    const std::int32_t id = f.direct.id.data()[at];
+    // Blocks past the frame hold anything.
+    return id < 0 && at < f.hits.refracted_id.size() ? f.hits.refracted_id.data()[at] : id;
+  };
+  std::int32_t last = kNoId;
+  for (const std::size_t lane : kLanes) {
+    const std::int32_t far_id = shown(far_block + lane), near_id = shown(near_block + lane);
     if (far_id >= 0 && far_id < count) __builtin_prefetch(f.geometry.triangles + far_id);
-    if (near_id < 0 || near_id >= count) continue;
+    if (near_id < 0 || near_id >= count || near_id == last) continue;
+    last = near_id;
     const Geometry::TriangleRecord& t = f.geometry.triangles[near_id];
     for (const std::uint32_t vertex : t.vertex) {
       __builtin_prefetch(f.geometry.vertices + vertex);

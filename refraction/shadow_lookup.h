@@ -14,19 +14,23 @@ inline constexpr float kNormalOffsetTexels = 2.2f;
 // An interpolated normal and its triangle's own that agree less than this (cosine) are taken to agree so much.
 inline constexpr float kMinAgreement = 0.5f;
 
-// Weighted share of nine taps of one level that see the sun.
+// Where points look a level up.
+struct ShadowPlace {
+  WideF x, y;     // texels, of the first tap: within the level
+  WideF nearest;  // the points' own depths, less the bias
+  WideI middle;   // slot of the middle tap
+  WideM inside;   // of the level
+};
+
+// Where points look a level up, and asks for what they will read there: the maps are larger than the caches.
 //
 //   map       a level of the map of the medium that the points are in
 //   position  world; normal: unit, of the surface, towards the sun's side
 //   facet     unit, of the triangle itself, of either side: the texels lie on it, so it says how steep they are (where
 //             the interpolated normal faces the sun and the facet does not, its own texels would shade it)
-//   lanes     that are wanted; the others get anything from 0 to 1
-// Returns 0 (in shadow) to 1, and which of the lanes are inside of the level. The edge is two texels wide and moves
-// smoothly. Source: percentage-closer filtering (Reeves, Salesin, Cook 1987) over a box of two texels round the
-// bilinear position; normal offset as Holbert (2011). Error: none for points farther from a shadow's edge than
-// kNormalOffsetTexels + 1.5 texels along the surface (tests/refraction/test_shadow.cpp).
-__attribute__((noinline)) inline WideF level_visibility(const ShadowMap& map, Vec3<WideF> position, Vec3<WideF> normal,
-                                                        Vec3<WideF> facet, WideM lanes, WideM& inside) {
+// Source: normal offset as Holbert (2011).
+__attribute__((noinline)) inline void find_place(const ShadowMap& map, Vec3<WideF> position, Vec3<WideF> normal,
+                                                 Vec3<WideF> facet, ShadowPlace& out) {
   const WideF zero(0.0f), one(1.0f);
   if (map.bend.bent) {
     const Vec3<WideF> plane_normal = broadcast<WideF>(map.bend.normal), shear = broadcast<WideF>(map.bend.shear);
@@ -48,32 +52,52 @@ __attribute__((noinline)) inline WideF level_visibility(const ShadowMap& map, Ve
   const ClipVertex<WideF> at = project(map.view, position);
   const WideF first(0.0f), last(static_cast<float>(map.grid.width_px - 3));
   const WideF x_px = at.x + WideF(map.view.centre_px.x - 1.0f), y_px = at.y + WideF(map.view.centre_px.y - 1.0f);
-  const WideF x = clamp(x_px, first, last), y = clamp(y_px, first, last);
-  inside = lanes & (x == x_px) & (y == y_px);
-  const WideF column = floor(x), row = floor(y);
-  const WideF fx = x - column, fy = y - row;
-  const WideF nearest = at.z + WideF(map.bias);
+  out.x = clamp(x_px, first, last), out.y = clamp(y_px, first, last);
+  out.inside = (out.x == x_px) & (out.y == y_px);
+  out.nearest = at.z + WideF(map.bias);
+  const WideI column = to_int_trunc(out.x) + WideI(1), row = to_int_trunc(out.y) + WideI(1);
+  out.middle = ((row >> 2) * WideI(map.grid.blocks_x) << 4) + ((row & WideI(3)) << 2) + ((column >> 2) << 4) +
+               (column & WideI(3));
+  alignas(64) std::int32_t slots[16];
+  out.middle.store(slots);
+  for (const int lane : {0, 3, 5, 6, 9, 10, 12, 15}) __builtin_prefetch(map.depth.data() + slots[lane]);
+}
 
+// Weighted share of nine taps of one level that see the sun.
+//
+//   place  find_place
+//   lanes  that are wanted; the others get anything from 0 to 1
+// Returns 0 (in shadow) to 1, and which of the lanes are inside of the level. The edge is two texels wide and moves
+// smoothly. Source: percentage-closer filtering (Reeves, Salesin, Cook 1987) over a box of two texels round the
+// bilinear position. Error: none for points farther from a shadow's edge than kNormalOffsetTexels + 1.5 texels along
+// the surface (tests/refraction/test_shadow.cpp).
+__attribute__((noinline)) inline WideF level_visibility(const ShadowMap& map, const ShadowPlace& place, WideM lanes,
+                                                        WideM& inside) {
+  const WideF zero(0.0f), one(1.0f);
+  inside = lanes & place.inside;
+  const WideI column = to_int_trunc(place.x), row = to_int_trunc(place.y);
+  // Where no tap can differ from the middle one, it decides.
+  const WideF middle = gather(map.depth.data(), place.middle, lanes, zero);
+  const WideI cell = (row >> 3) * WideI(map.grid.width_px / kShadowCell) + (column >> 3);
+  const WideF steepness = gather(map.steepness.data(), cell, lanes, zero);
+  const WideM lit = middle + steepness <= place.nearest, dark = middle - steepness > place.nearest;
+  const WideM open = lanes & !(lit | dark);
+  if (none(open)) return select(lit, one, zero);
+
+  const WideF fx = place.x - floor(place.x), fy = place.y - floor(place.y);
   const WideF weight_x[3] = {one - fx, one, fx}, weight_y[3] = {one - fy, one, fy};
   WideI column_slot[3], row_slot[3];
   for (int i = 0; i < 3; ++i) {
-    const WideI cx = to_int_trunc(column) + WideI(i), cy = to_int_trunc(row) + WideI(i);
+    const WideI cx = column + WideI(i), cy = row + WideI(i);
     column_slot[i] = ((cx >> 2) << 4) + (cx & WideI(3));
     row_slot[i] = ((cy >> 2) * WideI(map.grid.blocks_x) << 4) + ((cy & WideI(3)) << 2);
   }
-  // Where no tap can differ from the middle one, it decides.
-  const WideF middle = gather(map.depth.data(), row_slot[1] + column_slot[1], lanes, zero);
-  const WideI cell = (to_int_trunc(row) >> 3) * WideI(map.grid.width_px / kShadowCell) + (to_int_trunc(column) >> 3);
-  const WideF steepness = gather(map.steepness.data(), cell, lanes, zero);
-  const WideM lit = middle + steepness <= nearest, dark = middle - steepness > nearest;
-  if (none(lanes & !(lit | dark))) return select(lit, one, zero);
-
   WideF seen = zero;
   for (int j = 0; j < 3; ++j) {
     WideF in_row = zero;
     for (int i = 0; i < 3; ++i) {
-      const WideF depth = gather(map.depth.data(), row_slot[j] + column_slot[i], lanes, zero);
-      in_row = in_row + select(depth <= nearest, weight_x[i], zero);
+      const WideF depth = gather(map.depth.data(), row_slot[j] + column_slot[i], open, zero);
+      in_row = in_row + select(depth <= place.nearest, weight_x[i], zero);
     }
     seen = seen + in_row * weight_y[j];
   }
@@ -81,15 +105,19 @@ __attribute__((noinline)) inline WideF level_visibility(const ShadowMap& map, Ve
 }
 
 // The same from the finest level that holds each point; 1 (lit) outside of all.
-SHOAL_INLINE WideF sun_visibility(const SunMap& map, Vec3<WideF> position, Vec3<WideF> normal, Vec3<WideF> facet,
-                                  WideM lanes) {
-  WideF seen(1.0f);
-  for (const ShadowMap& level : map.levels) {
-    WideM inside;
-    const WideF here = level_visibility(level, position, normal, facet, lanes, inside);
-    seen = select(inside, here, seen);
+//   first  find_place in the map's first level; position, normal, facet: as there
+SHOAL_INLINE WideF sun_visibility(const SunMap& map, const ShadowPlace& first, Vec3<WideF> position, Vec3<WideF> normal,
+                                  Vec3<WideF> facet, WideM lanes) {
+  WideM inside;
+  WideF seen = level_visibility(map.levels[0], first, lanes, inside);
+  seen = select(inside, seen, WideF(1.0f));
+  for (std::size_t i = 1; i < map.levels.size(); ++i) {
     lanes = lanes & !inside;
     if (none(lanes)) break;
+    ShadowPlace place;
+    find_place(map.levels[i], position, normal, facet, place);
+    const WideF here = level_visibility(map.levels[i], place, lanes, inside);
+    seen = select(inside, here, seen);
   }
   return seen;
 }

@@ -37,6 +37,8 @@ template <class F>
 SHOAL_INLINE F blurred_lobe(const Spread<F>& s, float variance) {
   const F along = F(variance) + s.variance_along, across = F(variance) + s.variance_across;
   const F power = s.along2 / along + s.across2 / across;
+  // Narrow lobes end near the sun: beyond, the power of two is exactly 0.
+  if (all(power > F(210.0f))) return F(0.0f);
   return F(variance) / sqrt(along * across) * det_exp2(F(-0.72134752f) * power);
 }
 
