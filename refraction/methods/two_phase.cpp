@@ -1,6 +1,6 @@
 // two-phase: ours, the default. Exact path solver, error-bounded subdivision, and the true refracted ray against the
-// triangle that the broad phase found or, under waves and at edges, against the scene; shaded once, where that ray truly
-// hits.
+// triangle that the broad phase found or, under waves and at edges, against the scene; shaded once, where that ray
+// truly hits.
 //
 // Source  Steel 2024 (horizontal-preserving virtual space); Liu et al. 2020 (broad and narrow phase).
 // Differs From both: the solver is exact (path_solver.h), edges are split to a bound in pixels (broad_phase.h), and the
@@ -14,7 +14,8 @@ struct TwoPhase : TrueRays {};
 }  // namespace
 
 Method two_phase() {
-  return {"two-phase", "exact solver, bounded subdivision, true ray against the primitive or, under waves, the scene; shaded after",
+  return {"two-phase",
+          "exact solver, bounded subdivision, true ray against the primitive or, under waves, the scene; shaded after",
           "Shoal; after Steel 2024 and Liu et al. 2020", MethodStages<TwoPhase>::kernels()};
 }
 

@@ -4,6 +4,7 @@
 // boxes there are decides only what is looked at; what is found does not depend on them.
 //
 // Memory  about 10 bytes a triangle, 60 with corners.
+// Source  Wald, Benthin and Boulos 2008, "Getting rid of packets": nodes as wide as the registers.
 #pragma once
 
 #include <cstdint>
