@@ -105,6 +105,13 @@ class FrontEnd {
     }
 
     const bool all_fast = needs_clip == 0 && !through_plane && !bends;
+    // Corners are looked up in whole tables; the geometry ends with its last chunk's vertices.
+    alignas(64) float world[3][kChunkVertices];
+    if (through_plane || bends)
+      for (int i = 0; i < chunk.vertex_count; i += 16) {
+        WideF::load(wx + i).store(world[0] + i), WideF::load(wy + i).store(world[1] + i);
+        WideF::load(wz + i).store(world[2] + i);
+      }
     for (int t = 0; t < chunk.triangle_count; t += 16) {
       const WideI i0 = load_u8(geometry_.corner[0] + chunk.first_index + static_cast<std::uint32_t>(t));
       const WideI i1 = load_u8(geometry_.corner[1] + chunk.first_index + static_cast<std::uint32_t>(t));
@@ -113,7 +120,8 @@ class FrontEnd {
       const WideI id = id_override != kNoId ? WideI(id_override)
                                             : WideI(static_cast<std::int32_t>(chunk.first_triangle) + t) + lane_index();
       if (!all_fast) {
-        const WideM slow = active & slow_lanes(wx, wy, wz, i0, i1, i2, needs_clip, through_plane, bends);
+        const WideM slow =
+            active & slow_lanes(world[0], world[1], world[2], i0, i1, i2, needs_clip, through_plane, bends);
         add_slow(wx, wy, wz, i0, i1, i2, id, to_bits(slow), two_sided, masked);
         active = active & !slow;
         if (none(active)) continue;
