@@ -172,9 +172,11 @@ std::vector<Sheet> tangle(int count, std::uint32_t seed, int opaque_every) {
     Sheet s;
     const int size = 8 << random.below(4);
     const int cx = random.below(kWidth), cy = random.below(kHeight);
-    for (int k = 0; k < 3; ++k)
-      s.corners.push_back(place((cx - size) * 256 + random.below(size * 512),
-                                (cy - size) * 256 + random.below(size * 512), 20 + random.below(900)));
+    for (int k = 0; k < 3; ++k) {
+      const int depth_m = 20 + random.below(900);
+      const int y = (cy - size) * 256 + random.below(size * 512), x = (cx - size) * 256 + random.below(size * 512);
+      s.corners.push_back(place(x, y, depth_m));
+    }
     s.color = random.color(0.1f);
     s.blended = opaque_every == 0 || i % opaque_every != 0;
     s.two_sided = i % 3 != 0;
