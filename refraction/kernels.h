@@ -67,9 +67,12 @@ struct MethodKernels {
   void (*prepare)(FrameData&, ThreadPool&, const Camera*) = nullptr;
 };
 
-// Which layers a body's passes draw.
+// Which layers a body's passes draw: none for rays that waves bend away from what it would show.
+SHOAL_INLINE bool layer_tells(bool follows_waves, const WaterPass& water) {
+  return !(follows_waves && water.surface != nullptr);
+}
 SHOAL_INLINE bool draws_refracted(const MethodKernels& method, const WaterPass& water) {
-  return method.refracted_alpha != nullptr && !(method.follows_waves && water.surface != nullptr);
+  return method.refracted_alpha != nullptr && layer_tells(method.follows_waves, water);
 }
 SHOAL_INLINE bool draws_mirrored(const WaterPass& water) { return water.mirrors && water.surface == nullptr; }
 

@@ -68,9 +68,8 @@ class NarrowPhase {
   //   bent  the rays follow the waves, and what water does to them
   void refract(const Block& block, const WaterRays<WideF>& rays, WideM here, bool bent) {
     const WideM through = here & rays.at_surface.transmitted;
-    const bool drawn = !bent || water.surface == nullptr;
-    const NearestHit hit = meet(drawn ? &f.refracted : nullptr, refracted_edges_, false, block, rays.refracted,
-                                rays.refracted_differential, through);
+    const NearestHit hit = meet(layer_tells(bent, water) ? &f.refracted : nullptr, refracted_edges_, false, block,
+                                rays.refracted, rays.refracted_differential, through);
     const WideI id = bent ? or_water(hit, rays, false, through) : hit.id;
     store_masked(f.hits.refracted_id.data() + block.offset, id, here);
   }
@@ -83,12 +82,14 @@ class NarrowPhase {
   }
 
  private:
+  // What was hit, or the water that is nearer.
   WideI or_water(const NearestHit& hit, const WaterRays<WideF>& rays, bool mirrored, WideM lanes) const {
     if (!meets_water_ || none(lanes)) return hit.id;
     const WaterMet met = nearest_water(f, onward(water, rays, mirrored, lanes));
     return select(lanes & (met.t < hit.t), WideI(kFirstWaterId) + met.body, hit.id);
   }
 
+  //   layer  that tells, drawn by these rays' map; null: the scene is asked
   NearestHit meet(const VisibilityBuffer* layer, std::optional<EdgeBlocks>& edges, bool mirrored, const Block& block,
                   const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideM lanes) {
     NearestHit known;

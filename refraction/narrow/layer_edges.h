@@ -7,9 +7,10 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 // Of the blocks of a 64-pixel region.
 struct EdgeBlocks {
-  std::uint16_t row[kRegionSize / kBlockSize];  // bit i: block i has an edge within a pixel
-  bool at(int x_px, int y_px) const {           // a pixel of the frame, or of the layer
-    return (row[y_px / kBlockSize % 16] >> (x_px / kBlockSize % 16) & 1) != 0;
+  static constexpr int kAcross = kRegionSize / kBlockSize;
+  std::uint16_t row[kAcross];          // bit i: block i has an edge within a pixel
+  bool at(int x_px, int y_px) const {  // a pixel of the frame, or of the layer
+    return (row[y_px / kBlockSize % kAcross] >> (x_px / kBlockSize % kAcross) & 1) != 0;
   }
 };
 

@@ -9,14 +9,15 @@ inline constexpr std::int32_t kNowhere = -1;
 
 // Sixteen rays among the bodies of water.
 struct WaterQuery {
-  Ray<WideF> ray;
+  Ray<WideF> ray;  // world
   WideM lanes = mask_from_bits(0);
   float t_near = 0;              // in the direction's lengths
   std::int32_t from = kNowhere;  // the body that they start on: if its surface is a plane they do not meet it again
   Vec3<WideF> lift = broadcast<WideF>(Vec3f{0, 0, 0});  // to where they start on that one's side, if it is displaced
 };
 
-// The refracted or the mirrored rays of a block.
+// The refracted or the mirrored rays of a block, to meet water again.
+//   rays  as the eye's rays leave `water`
 SHOAL_INLINE WaterQuery onward(const WaterPass& water, const WaterRays<WideF>& rays, bool mirrored, WideM lanes) {
   WaterQuery query{mirrored ? rays.reflected : rays.refracted, lanes};
   query.from = water.index;
@@ -27,9 +28,8 @@ SHOAL_INLINE WaterQuery onward(const WaterPass& water, const WaterRays<WideF>& r
   return query;
 }
 
-// Where rays meet the nearest body of water.
 struct WaterMet {
-  WideF t;
+  WideF t;     // in the direction's lengths; kEndless: they meet none
   WideI body;  // kNowhere: none
 };
 
@@ -56,6 +56,9 @@ __attribute__((noinline)) inline WideF meet_waves(const WaterQuery& query, const
   return meet_displaced(*water.body, *water.surface, ray, WideF(query.t_near), query.lanes);
 }
 
+// Where rays meet the nearest body of water: its plane within the outline, a millionth of the sides to spare, or, where
+// it is displaced, the height field.
+// Error: where it is displaced, as meet_displaced.
 SHOAL_INLINE WaterMet nearest_water(const FrameData& f, const WaterQuery& query) {
   WaterMet met{WideF(kEndless), WideI(kNowhere)};
   for (const WaterPass& water : f.water) {
