@@ -13,7 +13,7 @@
 #include "compare/map_color.h"
 #include "compare/statistics.h"
 #include "core/error.h"
-#include "raster/srgb.h"
+#include "shading/srgb.h"
 
 namespace shoal::app {
 namespace {

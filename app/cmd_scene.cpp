@@ -5,7 +5,7 @@
 #include "app/load.h"
 #include "app/output.h"
 #include "core/error.h"
-#include "scene/export_glb.h"
+#include "scene/gltf/export_glb.h"
 
 namespace shoal::app {
 

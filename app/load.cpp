@@ -9,8 +9,8 @@
 #include "app/messages.h"
 #include "core/error.h"
 #include "core/thread_pool.h"
-#include "scene/environment.h"
-#include "scene/gltf.h"
+#include "scene/images/environment.h"
+#include "scene/gltf/gltf.h"
 #include "water/surface_keys.h"
 
 namespace shoal::app {

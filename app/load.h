@@ -15,7 +15,7 @@ struct LoadedScene {
   RenderScene render;
   std::string environment_file;  // what surrounds it; empty: a sky or a colour
   double load_ms = 0;   // reading or generating
-  double build_ms = 0;  // world space and chunks
+  double build_ms = 0;  // world space and meshlets
 };
 
 // Reads a .gltf or .glb file, or makes a built-in scene.

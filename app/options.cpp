@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "scene/environment.h"
+#include "scene/images/environment.h"
 #include "water/surface_keys.h"
 
 namespace shoal::app {

@@ -12,7 +12,7 @@
 
 #include "app/values.h"
 #include "core/error.h"
-#include "scene/images_png.h"
+#include "scene/images/png.h"
 
 namespace shoal::app {
 namespace {
@@ -74,7 +74,7 @@ class Writer {
 
 void write_png_bytes(std::FILE* file, const std::string& path, int width, int height, const std::uint8_t* rgb) {
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
-  // Untagged: that is sRGB to every reader, and the tag would bring a text chunk of the library's along.
+  // Untagged: that is sRGB to every reader, and the tag would bring a text meshlet of the library's along.
   Writer writer(file, path, "png", spec);
   writer.rows(0, height, rgb);
   writer.close();

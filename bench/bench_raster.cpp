@@ -36,7 +36,7 @@ void direct_pass(benchmark::State& state, const RenderScene& scene, Part part, i
   const double n = static_cast<double>(state.iterations());
   if (scene.geometry.triangles.size() > 2)
     count_items(state, "tri", static_cast<double>(scene.geometry.triangles.size()), threads);
-  if (part == kFrontEnd) count_items(state, "tri_in", in / n, threads);  // of chunks that are not culled
+  if (part == kFrontEnd) count_items(state, "tri_in", in / n, threads);  // of meshlets that are not culled
   if (part == kTiles) count_items(state, "tri_out", out / n, threads);   // those that are binned
   if (part == kVisibility) count_items(state, "pix", kPixels, threads);
   state.counters["tri_out_share"] = out / n / static_cast<double>(scene.geometry.triangles.size());

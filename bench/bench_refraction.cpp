@@ -6,7 +6,7 @@
 #include "bench/kernels.h"
 #include "bench/scenes.h"
 #include "bench/stages.h"
-#include "refraction/water_region.h"
+#include "refraction/passes/water_region.h"
 
 namespace shoal::bench {
 

@@ -17,7 +17,7 @@ void generate(benchmark::State& state, std::uint64_t triangles) {
   count_items(state, "tri", static_cast<double>(triangles));
 }
 
-// World space, chunks, materials: build_ms of `shoal render --json`.
+// World space, meshlets, materials: build_ms of `shoal render --json`.
 void build(benchmark::State& state, std::uint64_t triangles) {
   const Scene scene = pool().make(triangles);
   std::size_t built = 0;

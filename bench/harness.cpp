@@ -87,11 +87,11 @@ Isa isa() { return chosen_isa; }
 int pool_threads() { return std::min(2, available_threads()); }
 double clock_hz() { return measured_hz; }
 
-void count_items(benchmark::State& state, const std::string& what, double items, int threads) {
+void count_items(benchmark::State& state, const std::string& what, double work_items, int threads) {
   using Counter = benchmark::Counter;
-  state.counters["M" + what + "/s"] = Counter(items * 1e-6, Counter::kIsIterationInvariantRate);
+  state.counters["M" + what + "/s"] = Counter(work_items * 1e-6, Counter::kIsIterationInvariantRate);
   state.counters["cycles/" + what] =
-      Counter(items / (clock_hz() * threads), Counter::kIsIterationInvariantRate | Counter::kInvert);
+      Counter(work_items / (clock_hz() * threads), Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
 // Takes --isa=NAME out of the arguments; false where it names nothing that runs here.

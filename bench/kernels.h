@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "core/isa.h"
-#include "raster/surface.h"
-#include "refraction/broad/path_solvers.h"
+#include "shading/surface.h"
+#include "bench/solvers/path_solvers.h"
 #include "refraction/frame_data.h"
 
 // X(Type, name, Isa's constant, namespace) for every instruction set that is built.
@@ -96,7 +96,7 @@ enum class PathWay { kFixedPoint, kNewton, kHalley, kQuartic, kTable };
 // Points are planes of x, y, z, `count` (a multiple of 16) floats each.
 struct RefractionKernels {
   void (*virtual_distance)(const BroadPhase&, const float* far_m, const float* across_m, std::size_t count, float* out);
-  // The same by another solver (refraction/broad/path_solvers.h).
+  // The same by another solver (bench/solvers/path_solvers.h).
   void (*solve)(const BroadPhase&, PathWay way, int steps, const PathTable&, const float* far_m, const float* across_m,
                 std::size_t count, float* out);
   void (*virtual_position)(const BroadPhase&, const float* points, std::size_t count, float* out);

@@ -1,9 +1,9 @@
 // The pixel functions of raster/, sixteen pixels at a time, one copy an ISA.
 #include "bench/kernels.h"
-#include "raster/light.h"
-#include "raster/post.h"
+#include "shading/light.h"
+#include "shading/post.h"
 #include "raster/resolve.h"
-#include "raster/sky.h"
+#include "shading/sky.h"
 #include "refraction/pixel_stage.h"
 
 namespace shoal::bench::inline SHOAL_ISA_NS {

@@ -1,9 +1,9 @@
 // The broad and the narrow phase's functions, sixteen points or pixels at a time, one copy an ISA.
 #include "bench/kernels.h"
 #include "refraction/broad/broad_phase.h"
-#include "refraction/broad/path_solvers.h"
+#include "bench/solvers/path_solvers.h"
 #include "refraction/narrow/confirm_hit.h"
-#include "refraction/narrow/exact_ray.h"
+#include "water/exact_ray.h"
 #include "refraction/pixel_stage.h"
 
 namespace shoal::bench::inline SHOAL_ISA_NS {

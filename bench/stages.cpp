@@ -16,11 +16,11 @@ Stages::Stages(const RenderScene& scene, int width_px, int height_px, int thread
   f.grid = make_frame_grid(width_px, height_px);
   f.bin_grid = make_bin_grid(width_px, height_px, f.settings.tile_px);
   f.geometry = view_of(scene.geometry, scene.materials);
-  // As the renderer does: about 128 items, of at least four chunks.
-  const std::size_t chunks = scene.geometry.chunks.size();
-  f.bins.chunk_count = static_cast<std::uint32_t>(chunks);
-  f.bins.chunks_per_item = static_cast<std::uint32_t>(std::max<std::size_t>(4, (chunks + 127) / 128));
-  f.bins.items.resize((chunks + f.bins.chunks_per_item - 1) / f.bins.chunks_per_item);
+  // As the renderer does: about 128 work_items, of at least four meshlets.
+  const std::size_t meshlets = scene.geometry.meshlets.size();
+  f.bins.meshlet_count = static_cast<std::uint32_t>(meshlets);
+  f.bins.meshlets_per_work_item = static_cast<std::uint32_t>(std::max<std::size_t>(4, (meshlets + 127) / 128));
+  f.bins.work_items.resize((meshlets + f.bins.meshlets_per_work_item - 1) / f.bins.meshlets_per_work_item);
   f.direct.resize(f.grid);
   look(first_camera(scene));
 }
@@ -38,7 +38,7 @@ void Stages::look(const Camera& camera) {
 }
 
 void Stages::front_end() {
-  pool_.for_each(frame_.bins.items.size(), [&](std::size_t item, int) { kernels_.direct_front_end(frame_, item); });
+  pool_.for_each(frame_.bins.work_items.size(), [&](std::size_t work_item, int) { kernels_.direct_front_end(frame_, work_item); });
 }
 
 void Stages::tiles() {
@@ -51,12 +51,12 @@ void Stages::tiles() {
 
 std::uint64_t Stages::triangles_in() const {
   std::uint64_t sum = 0;
-  for (const BinItem& item : frame_.bins.items) sum += item.triangles_in;
+  for (const WorkItemBins& work_item : frame_.bins.work_items) sum += work_item.triangles_in;
   return sum;
 }
 std::uint64_t Stages::triangles_out() const {
   std::uint64_t sum = 0;
-  for (const BinItem& item : frame_.bins.items) sum += item.triangles_out;
+  for (const WorkItemBins& work_item : frame_.bins.work_items) sum += work_item.triangles_out;
   return sum;
 }
 

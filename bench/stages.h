@@ -13,7 +13,7 @@ class Stages {
   Stages(const RenderScene& scene, int width_px, int height_px, int threads);
 
   void look(const Camera& camera);
-  void front_end();  // chunks to bins
+  void front_end();  // meshlets to bins
   void tiles();      // bins to visibility and depth
 
   // Calls body(region) for each 64-pixel region, on all threads.
@@ -25,7 +25,7 @@ class Stages {
     return static_cast<std::size_t>(frame_.grid.regions_x) * static_cast<std::size_t>(frame_.grid.regions_y);
   }
 
-  // Of the last front_end: triangles in chunks that were not culled, and triangles binned.
+  // Of the last front_end: triangles in meshlets that were not culled, and triangles binned.
   std::uint64_t triangles_in() const;
   std::uint64_t triangles_out() const;
 

@@ -2,35 +2,40 @@
 #
 #   shoal_room(<name> [SOURCES <file>...] [KERNELS <file>...] [SEES <room>...] [LIBRARIES <target>...])
 #
-# makes shoal::<name>. SOURCES are compiled once, KERNELS once an ISA. SEES are the rooms whose headers it may include;
-# a user of the room sees them too. LIBRARIES are third-party targets, for the room's own sources only.
+# makes shoal::<name>. SOURCES are compiled once; those whose name ends in .isa.cpp, and KERNELS, once an instruction
+# set. SEES are the rooms whose headers it may include; a user of the room sees them too. LIBRARIES are third-party
+# targets, for the room's own sources only.
 function(shoal_room name)
   cmake_parse_arguments(PARSE_ARGV 1 room "" "" "SOURCES;KERNELS;SEES;LIBRARIES")
+  set(kernels ${room_SOURCES})
+  list(FILTER kernels INCLUDE REGEX "\\.isa\\.cpp$")
+  list(APPEND kernels ${room_KERNELS})
+  list(FILTER room_SOURCES EXCLUDE REGEX "\\.isa\\.cpp$")
   add_library(shoal_${name} INTERFACE)
   add_library(shoal::${name} ALIAS shoal_${name})
   target_link_libraries(shoal_${name} INTERFACE shoal_flags)
-  if(room_SOURCES OR room_KERNELS)
+  if(room_SOURCES OR kernels)
     set(archive shoal_${name}_archive)
-    if(room_KERNELS)
+    if(kernels)
       # Plain objects first: see ShoalIsa.cmake.
       set(plain shoal_${name}_plain)
       add_library(${plain} OBJECT ${room_SOURCES})
       target_link_libraries(${plain} PRIVATE shoal_flags ${room_LIBRARIES})
       add_library(${archive} STATIC $<TARGET_OBJECTS:${plain}>)
-      shoal_add_kernels(${archive} ${room_KERNELS})
+      shoal_add_kernels(${archive} ${kernels})
     else()
       add_library(${archive} STATIC ${room_SOURCES})
     endif()
     set_target_properties(${archive} PROPERTIES OUTPUT_NAME shoal_${name} LINKER_LANGUAGE CXX)
     target_link_libraries(${archive} PRIVATE shoal_flags ${room_LIBRARIES})
-    if(room_KERNELS)
+    if(kernels)
       target_link_libraries(shoal_${name} INTERFACE $<LINK_LIBRARY:WHOLE_ARCHIVE,${archive}>)
     else()
       target_link_libraries(shoal_${name} INTERFACE ${archive})
     endif()
     foreach(seen IN LISTS room_SEES)
       target_link_libraries(${archive} PRIVATE shoal::${seen})
-      if(room_KERNELS)
+      if(kernels)
         target_link_libraries(${plain} PRIVATE shoal::${seen})
       endif()
     endforeach()
@@ -40,7 +45,7 @@ function(shoal_room name)
   endforeach()
 endfunction()
 
-# shoal_sources(<variable> <pattern>...): the files that match, in alphabetical order, looked for again at each build.
+# shoal_sources(<variable> <pattern>...): the files that match, in alphabetical order, searched for again at each build.
 macro(shoal_sources variable)
   file(GLOB ${variable} CONFIGURE_DEPENDS ${ARGN})
 endmacro()

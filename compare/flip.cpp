@@ -7,7 +7,7 @@
 #include "compare/flip_color.h"
 #include "compare/flip_kernels.h"
 #include "core/error.h"
-#include "raster/srgb.h"
+#include "shading/srgb.h"
 
 namespace shoal {
 

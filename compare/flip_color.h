@@ -1,7 +1,7 @@
 // Colour spaces and constants of FLIP, computed at compile time.
 #pragma once
 
-#include "raster/srgb.h"
+#include "shading/srgb.h"
 
 namespace shoal {
 

@@ -20,7 +20,7 @@ BinGrid make_bin_grid(int width_px, int height_px, int tile_px) {
   return g;
 }
 
-void BinItem::clear() {
+void WorkItemBins::clear() {
   packets.clear();
   large.clear();
   entries.clear();
@@ -28,7 +28,7 @@ void BinItem::clear() {
   triangles_in = triangles_out = subdivision_capped = 0;
 }
 
-void BinItem::sort_by_tile(const BinGrid& grid) {
+void WorkItemBins::sort_by_tile(const BinGrid& grid) {
   const std::size_t tiles = static_cast<std::size_t>(grid.tiles_x) * static_cast<std::size_t>(grid.tiles_y);
   tile_first.resize(tiles + 1);
   for (std::size_t t = 0; t <= tiles; ++t) tile_first[t] = 0;

@@ -1,6 +1,6 @@
 // Bins: set-up triangles in packets of sixteen, and which tiles each packet touches.
 //
-// The front end works on fixed runs of chunks ("items"); each item has bins of its own, and a tile reads the items in
+// The front end works on fixed runs of meshlets ("work_items"); each work_item has bins of its own, and a tile reads the work_items in
 // order, so triangles reach a tile in submission order whatever thread made them. Edges are recomputed in the tile from
 // 40 bytes a triangle instead of being carried there (docs/ARCHITECTURE.md, "Bins").
 #pragma once
@@ -36,7 +36,7 @@ struct LargeTriangle {
   std::int32_t id;
 };
 
-enum class BinKind : std::uint32_t { kSmall = 0, kLarge = 1, kSmallMasked = 2, kLargeMasked = 3 };
+enum class BinKind : std::uint32_t { kSmall = 0, kLarge = 1, kSmallAlphaTested = 2, kLargeAlphaTested = 3 };
 
 struct BinEntry {
   std::uint32_t tile;
@@ -51,8 +51,8 @@ struct BinGrid {
 };
 BinGrid make_bin_grid(int width_px, int height_px, int tile_px);
 
-// What one item of the front end produced.
-struct BinItem {
+// What one work_item of the front end produced.
+struct WorkItemBins {
   PodVector<TrianglePacket> packets;
   PodVector<LargeTriangle> large;
   PodVector<BinEntry> entries;  // as found, then sorted by tile, stable

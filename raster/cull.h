@@ -1,4 +1,4 @@
-// Conservative culling of whole chunks against what a pass can see.
+// Conservative culling of whole meshlets against what a pass can see.
 #pragma once
 
 #include "core/vec.h"

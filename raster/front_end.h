@@ -1,10 +1,10 @@
-// Front end: chunks of the scene through a vertex program, clipping and setup into bins.
+// Front end: meshlets of the scene through a vertex program, clipping and setup into bins.
 //
 // A vertex program is any callable that takes a world position to a clip vertex, templated on the lane type:
 //
 //   struct Program {
 //     template <class F> ClipVertex<F> vertex(Vec3<F> position_world) const;
-//     bool chunk_outside(const Chunk&) const;            // conservative: true only if nothing of it can show
+//     bool meshlet_outside(const Meshlet&) const;            // conservative: true only if nothing of it can show
 //   };
 //
 // A program that bends straight edges (a broad phase) derives from nothing either, sets kWarped and adds what
@@ -17,7 +17,7 @@
 #include "core/wide/lookup.h"
 #include "raster/clip.h"
 #include "raster/geometry.h"
-#include "raster/material.h"
+#include "shading/material.h"
 #include "raster/setup.h"
 
 namespace shoal {
@@ -26,7 +26,7 @@ namespace shoal {
 struct GeometryView {
   const float *x_world, *y_world, *z_world;
   const std::uint8_t* corner[3];
-  const Chunk* chunks;
+  const Meshlet* meshlets;
   const VertexRecord* vertices;
   const Vec4f* colors;  // null: none
   const Geometry::TriangleRecord* triangles;
@@ -45,58 +45,58 @@ namespace shoal::inline SHOAL_ISA_NS {
 template <class Program>
 class FrontEnd {
  public:
-  SHOAL_INLINE FrontEnd(const GeometryView& geometry, const Program& program, const PassSettings& pass, BinItem& item)
-      : geometry_(geometry), program_(program), sink_(pass, item), tessellator_(program, sink_) {}
+  SHOAL_INLINE FrontEnd(const GeometryView& geometry, const Program& program, const PassSettings& pass, WorkItemBins& work_item)
+      : geometry_(geometry), program_(program), sink_(pass, work_item), tessellator_(program, sink_) {}
 
-  // Chunks [first, last) of the scene, in order. id_override replaces the triangle ids (a water outline's), or is
+  // Meshlets [first, last) of the scene, in order. id_override replaces the triangle ids (a water outline's), or is
   // kNoId.
   void run(std::uint32_t first, std::uint32_t last, std::int32_t id_override) {
-    sink_.item().clear();
+    sink_.work_item().clear();
     for (std::uint32_t c = first; c < last; ++c) {
-      const Chunk& chunk = geometry_.chunks[c];
-      if (program_.chunk_outside(chunk)) continue;
-      if (sink_.pass().skip_blended && geometry_.materials[chunk.material].alpha_mode == AlphaMode::kBlend) continue;
-      draw_chunk(chunk, id_override);
+      const Meshlet& meshlet = geometry_.meshlets[c];
+      if (program_.meshlet_outside(meshlet)) continue;
+      if (sink_.pass().skip_blended && geometry_.materials[meshlet.material].alpha_mode == AlphaMode::kBlend) continue;
+      draw_meshlet(meshlet, id_override);
     }
     sink_.finish();
   }
 
-  // Chunks of a list, in its order.
-  void run(const std::uint32_t* chunks, std::size_t count) {
-    sink_.item().clear();
+  // Meshlets of a list, in its order.
+  void run(const std::uint32_t* meshlets, std::size_t count) {
+    sink_.work_item().clear();
     for (std::size_t i = 0; i < count; ++i) {
-      const Chunk& chunk = geometry_.chunks[chunks[i]];
-      if (!program_.chunk_outside(chunk)) draw_chunk(chunk, kNoId);
+      const Meshlet& meshlet = geometry_.meshlets[meshlets[i]];
+      if (!program_.meshlet_outside(meshlet)) draw_meshlet(meshlet, kNoId);
     }
     sink_.finish();
   }
 
  private:
-  // A chunk's vertices on the pixel grid.
-  struct alignas(64) ChunkVertices {
-    std::int32_t x[kChunkVertices], y[kChunkVertices];
-    float depth[kChunkVertices];
+  // A meshlet's vertices on the pixel grid.
+  struct alignas(64) MeshletVertices {
+    std::int32_t x[kMeshletVertices], y[kMeshletVertices];
+    float depth[kMeshletVertices];
   };
 
-  __attribute__((noinline)) void draw_chunk(const Chunk& chunk, std::int32_t id_override) {
-    const Material& material = geometry_.materials[chunk.material];
-    const bool masked = material.alpha_mode == AlphaMode::kMask;
+  __attribute__((noinline)) void draw_meshlet(const Meshlet& meshlet, std::int32_t id_override) {
+    const Material& material = geometry_.materials[meshlet.material];
+    const bool alpha_tested = material.alpha_mode == AlphaMode::kMask;
     const bool two_sided = material.double_sided;
-    sink_.item().triangles_in += chunk.triangle_count;
+    sink_.work_item().triangles_in += meshlet.triangle_count;
 
     // What has to leave the fast path: triangles that reach through the world plane or bend too much.
     bool through_plane = false, bends = false;
     if constexpr (Program::kWarped) {
-      through_plane = !program_.chunk_inside(chunk);
-      bends = program_.chunk_bends(chunk);
+      through_plane = !program_.meshlet_inside(meshlet);
+      bends = program_.meshlet_bends(meshlet);
     }
-    const float* wx = geometry_.x_world + chunk.first_vertex;
-    const float* wy = geometry_.y_world + chunk.first_vertex;
-    const float* wz = geometry_.z_world + chunk.first_vertex;
+    const float* wx = geometry_.x_world + meshlet.first_vertex;
+    const float* wy = geometry_.y_world + meshlet.first_vertex;
+    const float* wz = geometry_.z_world + meshlet.first_vertex;
 
-    ChunkVertices v;
+    MeshletVertices v;
     std::uint64_t needs_clip = 0;
-    for (int i = 0; i < chunk.vertex_count; i += 16) {
+    for (int i = 0; i < meshlet.vertex_count; i += 16) {
       const ClipVertex<WideF> clip =
           program_.vertex(Vec3<WideF>{WideF::load(wx + i), WideF::load(wy + i), WideF::load(wz + i)});
       needs_clip |= std::uint64_t(~to_bits(inside_guard(clip)) & 0xFFFFu) << i;
@@ -105,33 +105,33 @@ class FrontEnd {
     }
 
     const bool all_fast = needs_clip == 0 && !through_plane && !bends;
-    // Corners are looked up in whole tables; the geometry ends with its last chunk's vertices.
-    alignas(64) float world[3][kChunkVertices];
+    // Corners are looked up in whole tables; the geometry ends with its last meshlet's vertices.
+    alignas(64) float world[3][kMeshletVertices];
     if (through_plane || bends)
-      for (int i = 0; i < chunk.vertex_count; i += 16) {
+      for (int i = 0; i < meshlet.vertex_count; i += 16) {
         WideF::load(wx + i).store(world[0] + i), WideF::load(wy + i).store(world[1] + i);
         WideF::load(wz + i).store(world[2] + i);
       }
-    for (int t = 0; t < chunk.triangle_count; t += 16) {
-      const WideI i0 = load_u8(geometry_.corner[0] + chunk.first_index + static_cast<std::uint32_t>(t));
-      const WideI i1 = load_u8(geometry_.corner[1] + chunk.first_index + static_cast<std::uint32_t>(t));
-      const WideI i2 = load_u8(geometry_.corner[2] + chunk.first_index + static_cast<std::uint32_t>(t));
-      WideM active = lane_index() < WideI(chunk.triangle_count - t);
+    for (int t = 0; t < meshlet.triangle_count; t += 16) {
+      const WideI i0 = load_u8(geometry_.corner[0] + meshlet.first_index + static_cast<std::uint32_t>(t));
+      const WideI i1 = load_u8(geometry_.corner[1] + meshlet.first_index + static_cast<std::uint32_t>(t));
+      const WideI i2 = load_u8(geometry_.corner[2] + meshlet.first_index + static_cast<std::uint32_t>(t));
+      WideM active = lane_index() < WideI(meshlet.triangle_count - t);
       const WideI id = id_override != kNoId ? WideI(id_override)
-                                            : WideI(static_cast<std::int32_t>(chunk.first_triangle) + t) + lane_index();
+                                            : WideI(static_cast<std::int32_t>(meshlet.first_triangle) + t) + lane_index();
       if (!all_fast) {
         const WideM slow =
             active & slow_lanes(world[0], world[1], world[2], i0, i1, i2, needs_clip, through_plane, bends);
-        add_slow(wx, wy, wz, i0, i1, i2, id, to_bits(slow), two_sided, masked);
+        add_slow(wx, wy, wz, i0, i1, i2, id, to_bits(slow), two_sided, alpha_tested);
         active = active & !slow;
         if (none(active)) continue;
       }
-      sink_.add(corner(v, i0), corner(v, i1), corner(v, i2), id, active, two_sided, masked);
+      sink_.add(corner(v, i0), corner(v, i1), corner(v, i2), id, active, two_sided, alpha_tested);
     }
     tessellator_.flush();
   }
 
-  SHOAL_INLINE static SnappedLanes corner(const ChunkVertices& v, WideI i) {
+  SHOAL_INLINE static SnappedLanes corner(const MeshletVertices& v, WideI i) {
     return {lookup64(v.x, i), lookup64(v.y, i), lookup64(v.depth, i)};
   }
   SHOAL_INLINE static Vec3<WideF> world_corner(const float* x, const float* y, const float* z, WideI i) {
@@ -142,8 +142,8 @@ class FrontEnd {
                                 std::uint64_t needs_clip, bool through_plane, bool bends) {
     WideM slow = mask_from_bits(0);
     if (needs_clip != 0) {
-      alignas(64) std::int32_t flags[kChunkVertices];
-      for (int i = 0; i < kChunkVertices; ++i) flags[i] = static_cast<std::int32_t>((needs_clip >> i) & 1u);
+      alignas(64) std::int32_t flags[kMeshletVertices];
+      for (int i = 0; i < kMeshletVertices; ++i) flags[i] = static_cast<std::int32_t>((needs_clip >> i) & 1u);
       slow = (lookup64(flags, i0) | lookup64(flags, i1) | lookup64(flags, i2)) != WideI(0);
     }
     if constexpr (Program::kWarped) {
@@ -156,13 +156,13 @@ class FrontEnd {
   }
 
   __attribute__((noinline)) void add_slow(const float* x, const float* y, const float* z, WideI i0, WideI i1, WideI i2,
-                                          WideI id, std::uint32_t lanes, bool two_sided, bool masked) {
+                                          WideI id, std::uint32_t lanes, bool two_sided, bool alpha_tested) {
     for (; lanes != 0; lanes &= lanes - 1) {
       const int l = __builtin_ctz(lanes);
       const int k[3] = {extract(i0, l), extract(i1, l), extract(i2, l)};
       Vec3f p[3];
       for (int j = 0; j < 3; ++j) p[j] = {x[k[j]], y[k[j]], z[k[j]]};
-      tessellator_.add(p[0], p[1], p[2], extract(id, l), two_sided, masked);
+      tessellator_.add(p[0], p[1], p[2], extract(id, l), two_sided, alpha_tested);
     }
   }
 

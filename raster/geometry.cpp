@@ -10,31 +10,31 @@ namespace {
 
 std::size_t round_up_16(std::size_t n) { return (n + 15) & ~std::size_t{15}; }
 
-// Greedy cut of a triangle list into chunks, in file order. A vertex's slot holds the number of the chunk that used it
-// last and its place there, so that starting a chunk clears nothing.
-class ChunkCutter {
+// Greedy cut of a triangle list into meshlets, in file order. A vertex's slot holds the number of the meshlet that used it
+// last and its place there, so that starting a meshlet clears nothing.
+class MeshletCutter {
  public:
-  explicit ChunkCutter(std::uint32_t vertex_count) : slots_(vertex_count, 0) {}
+  explicit MeshletCutter(std::uint32_t vertex_count) : slots_(vertex_count, 0) {}
 
-  // Starts a chunk at triangle `first`; returns its triangle count.
-  //   local    receives chunk-local vertex numbers, three a triangle (kChunkTriangles * 3)
-  //   globals  receives the chunk's vertices in order of first use (kChunkVertices)
+  // Starts a meshlet at triangle `first`; returns its triangle count.
+  //   local    receives meshlet-local vertex numbers, three a triangle (kMeshletTriangles * 3)
+  //   globals  receives the meshlet's vertices in order of first use (kMeshletVertices)
   int cut(const std::uint32_t* indices, std::size_t first, std::size_t triangle_count, std::uint8_t* local,
           std::uint32_t* globals, int& vertex_count) {
     ++epoch_;
-    const std::size_t end = std::min(triangle_count, first + std::size_t{kChunkTriangles});
+    const std::size_t end = std::min(triangle_count, first + std::size_t{kMeshletTriangles});
     int vertices = 0;
     std::size_t t = first;
     for (; t < end; ++t) {
       const std::uint32_t* corner = indices + 3 * t;
-      if (vertices > kChunkVertices - 3 && vertices + count_new(corner) > kChunkVertices) break;
+      if (vertices > kMeshletVertices - 3 && vertices + count_new(corner) > kMeshletVertices) break;
       for (int k = 0; k < 3; ++k) {
         std::uint32_t& slot = slots_[corner[k]];
         if (slot >> kLocalBits != epoch_) {
           slot = epoch_ << kLocalBits | static_cast<std::uint32_t>(vertices);
           globals[vertices++] = corner[k];
         }
-        *local++ = static_cast<std::uint8_t>(slot & (kChunkVertices - 1));
+        *local++ = static_cast<std::uint8_t>(slot & (kMeshletVertices - 1));
       }
     }
     vertex_count = vertices;
@@ -48,7 +48,7 @@ class ChunkCutter {
  private:
   static constexpr int kLocalBits = 6;
   static constexpr std::uint32_t kLastEpoch = 0xFFFFFFFFu >> kLocalBits;
-  static_assert(1 << kLocalBits == kChunkVertices);
+  static_assert(1 << kLocalBits == kMeshletVertices);
 
   int count_new(const std::uint32_t* corner) const {
     const auto is_new = [&](int k) { return slots_[corner[k]] >> kLocalBits != epoch_; };
@@ -76,52 +76,52 @@ void append_vertex(Geometry& g, const MeshView& mesh, std::uint32_t v, bool with
     g.tangents.push_back(mesh.tangents_world ? mesh.tangents_world[v] : kNoTangent);
 }
 
-// The chunk's vertices, padded to sixteen with the last.
+// The meshlet's vertices, padded to sixteen with the last.
 void append_vertices(Geometry& g, const MeshView& mesh, const std::uint32_t* globals, int count, bool with_colors) {
   const int padded = static_cast<int>(round_up_16(static_cast<std::size_t>(count)));
   for (int i = 0; i < padded; ++i) append_vertex(g, mesh, globals[std::min(i, count - 1)], with_colors);
 }
 
-// Corner arrays (padded with the degenerate 0, 0, 0), bounds and longest edge of a drawn chunk.
-void append_chunk(Geometry& g, const MeshView& mesh, const std::uint8_t* local, Chunk chunk) {
-  const std::size_t count = chunk.triangle_count, padded = round_up_16(count);
+// Corner arrays (padded with the degenerate 0, 0, 0), bounds and longest edge of a drawn meshlet.
+void append_meshlet(Geometry& g, const MeshView& mesh, const std::uint8_t* local, Meshlet meshlet) {
+  const std::size_t count = meshlet.triangle_count, padded = round_up_16(count);
   for (std::size_t t = 0; t < padded; ++t) {
     const bool real = t < count;
     g.corner0.push_back(real ? local[3 * t] : std::uint8_t{0});
     g.corner1.push_back(real ? local[3 * t + 1] : std::uint8_t{0});
     g.corner2.push_back(real ? local[3 * t + 2] : std::uint8_t{0});
   }
-  chunk.material = mesh.material;
-  measure_chunk(g, chunk);
-  g.chunks.push_back(chunk);
+  meshlet.material = mesh.material;
+  measure_meshlet(g, meshlet);
+  g.meshlets.push_back(meshlet);
 }
 
 }  // namespace
 
-void measure_chunk(const Geometry& g, Chunk& chunk) {
-  const VertexRecord* v = g.vertices.data() + chunk.first_vertex;
+void measure_meshlet(const Geometry& g, Meshlet& meshlet) {
+  const VertexRecord* v = g.vertices.data() + meshlet.first_vertex;
   Vec3f lo = v[0].position_world, hi = lo;
-  for (int i = 1; i < chunk.vertex_count; ++i) {
+  for (int i = 1; i < meshlet.vertex_count; ++i) {
     const Vec3f p = v[i].position_world;
     lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
     hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
   }
   float longest2 = 0;
-  for (std::size_t i = chunk.first_index; i < chunk.first_index + std::size_t{chunk.triangle_count}; ++i) {
+  for (std::size_t i = meshlet.first_index; i < meshlet.first_index + std::size_t{meshlet.triangle_count}; ++i) {
     const Vec3f a = v[g.corner0[i]].position_world, b = v[g.corner1[i]].position_world;
     const Vec3f c = v[g.corner2[i]].position_world;
     const Vec3f ab = b - a, bc = c - b, ca = a - c;
     longest2 = std::max({longest2, dot(ab, ab), dot(bc, bc), dot(ca, ca)});
   }
-  chunk.bounds_min_world = lo;
-  chunk.bounds_max_world = hi;
-  chunk.longest_edge_m = std::sqrt(longest2);
+  meshlet.bounds_min_world = lo;
+  meshlet.bounds_max_world = hi;
+  meshlet.longest_edge_m = std::sqrt(longest2);
 }
 
 void measure_mesh(const MeshView& mesh, GeometrySize& size) {
-  ChunkCutter cutter(mesh.vertex_count);
-  std::uint8_t local[kChunkTriangles * 3];
-  std::uint32_t globals[kChunkVertices];
+  MeshletCutter cutter(mesh.vertex_count);
+  std::uint8_t local[kMeshletTriangles * 3];
+  std::uint32_t globals[kMeshletVertices];
   const std::size_t count = mesh.index_count / 3;
   for (std::size_t first = 0; first < count;) {
     int vertices = 0;
@@ -129,7 +129,7 @@ void measure_mesh(const MeshView& mesh, GeometrySize& size) {
     size.vertices += round_up_16(static_cast<std::size_t>(vertices));
     if (mesh.drawn) {
       size.corners += round_up_16(static_cast<std::size_t>(triangles));
-      ++size.chunks;
+      ++size.meshlets;
     }
     first += static_cast<std::size_t>(triangles);
   }
@@ -148,7 +148,7 @@ void reserve_geometry(Geometry& g, const GeometrySize& size, bool with_colors) {
   g.corner1.reserve(corners);
   g.corner2.reserve(corners);
   g.triangles.reserve(g.triangles.size() + size.triangles);
-  g.chunks.reserve(g.chunks.size() + size.chunks);
+  g.meshlets.reserve(g.meshlets.size() + size.meshlets);
   g.drawables.reserve(g.drawables.size() + size.drawables);
 }
 
@@ -163,26 +163,26 @@ void append_mesh(Geometry& g, const MeshView& mesh) {
   if (mesh.uvs1 && g.uvs1.empty()) g.uvs1.resize(g.vertices.size(), Vec2f{0, 0});
   if (mesh.tangents_world && g.tangents.empty()) g.tangents.resize(g.vertices.size(), kNoTangent);
 
-  ChunkCutter cutter(mesh.vertex_count);
-  std::uint8_t local[kChunkTriangles * 3];
-  std::uint32_t globals[kChunkVertices];
+  MeshletCutter cutter(mesh.vertex_count);
+  std::uint8_t local[kMeshletTriangles * 3];
+  std::uint32_t globals[kMeshletVertices];
   for (std::size_t first = 0; first < count;) {
     int vertices = 0;
     const int triangles = cutter.cut(mesh.indices, first, count, local, globals, vertices);
-    Chunk chunk;
-    chunk.first_triangle = first_id + static_cast<std::uint32_t>(first);
-    chunk.first_vertex = static_cast<std::uint32_t>(g.vertices.size());
-    chunk.first_index = static_cast<std::uint32_t>(g.corner0.size());
-    chunk.triangle_count = static_cast<std::uint16_t>(triangles);
-    chunk.vertex_count = static_cast<std::uint16_t>(vertices);
+    Meshlet meshlet;
+    meshlet.first_triangle = first_id + static_cast<std::uint32_t>(first);
+    meshlet.first_vertex = static_cast<std::uint32_t>(g.vertices.size());
+    meshlet.first_index = static_cast<std::uint32_t>(g.corner0.size());
+    meshlet.triangle_count = static_cast<std::uint16_t>(triangles);
+    meshlet.vertex_count = static_cast<std::uint16_t>(vertices);
     append_vertices(g, mesh, globals, vertices, with_colors);
     for (int t = 0; t < triangles; ++t) {
       const std::uint8_t* l = local + 3 * t;
       g.triangles.push_back(
-          {{chunk.first_vertex + l[0], chunk.first_vertex + l[1], chunk.first_vertex + l[2]}, mesh.material});
+          {{meshlet.first_vertex + l[0], meshlet.first_vertex + l[1], meshlet.first_vertex + l[2]}, mesh.material});
     }
-    // What is not drawn keeps ids and vertices, but has no chunk that a stage could see.
-    if (mesh.drawn) append_chunk(g, mesh, local, chunk);
+    // What is not drawn keeps ids and vertices, but has no meshlet that a stage could see.
+    if (mesh.drawn) append_meshlet(g, mesh, local, meshlet);
     first += static_cast<std::size_t>(triangles);
   }
 }

@@ -1,4 +1,4 @@
-// Geometry as the rasterizer takes it: world-space triangles in submission order, cut into chunks.
+// Geometry as the rasterizer takes it: world-space triangles in submission order, cut into meshlets.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace shoal {
 
-inline constexpr int kChunkVertices = 64;
-inline constexpr int kChunkTriangles = 128;
+inline constexpr int kMeshletVertices = 64;
+inline constexpr int kMeshletTriangles = 128;
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;
 
 // What the pixel stages read of a vertex: half a cache line.
@@ -19,9 +19,9 @@ struct VertexRecord {
   Vec2f uv;
 };
 
-// Consecutive triangles of one drawable, at most kChunkTriangles over at most kChunkVertices vertices.
-struct Chunk {
-  std::uint32_t first_triangle = 0;  // global id; the k-th triangle of the chunk is first_triangle + k
+// Consecutive triangles of one drawable, at most kMeshletTriangles over at most kMeshletVertices vertices.
+struct Meshlet {
+  std::uint32_t first_triangle = 0;  // global id; the k-th triangle of the meshlet is first_triangle + k
   std::uint32_t first_vertex = 0;    // a multiple of 16
   std::uint32_t first_index = 0;     // into Geometry::corner0/1/2, a multiple of 16
   std::uint16_t triangle_count = 0, vertex_count = 0;
@@ -40,7 +40,7 @@ struct Drawable {
 };
 
 struct Geometry {
-  // Vertices, sixteen-padded a chunk (a chunk's padding repeats its last vertex). Positions twice: planar for the
+  // Vertices, sixteen-padded a meshlet (a meshlet's padding repeats its last vertex). Positions twice: planar for the
   // front end, in records for the pixel stages.
   std::vector<float> x_world, y_world, z_world;
   std::vector<VertexRecord> vertices;
@@ -48,7 +48,7 @@ struct Geometry {
   std::vector<Vec2f> uvs1;      // the second set of texture coordinates; empty when nothing has any
   std::vector<Vec4f> tangents;  // world, unit along +u, w the bitangent's sign; empty when nothing has any
 
-  // A chunk's triangles by chunk-local vertex number, one array a corner, sixteen-padded a chunk (padding is
+  // A meshlet's triangles by meshlet-local vertex number, one array a corner, sixteen-padded a meshlet (padding is
   // degenerate).
   std::vector<std::uint8_t> corner0, corner1, corner2;
 
@@ -59,7 +59,7 @@ struct Geometry {
   };
   std::vector<TriangleRecord> triangles;
 
-  std::vector<Chunk> chunks;        // in submission order, drawn drawables only
+  std::vector<Meshlet> meshlets;        // in submission order, drawn drawables only
   std::vector<Drawable> drawables;  // in submission order
 };
 
@@ -77,7 +77,7 @@ struct MeshView {
   bool drawn = true;
 };
 
-// Appends a drawable and its chunks. Triangles keep their order; ids go on from those already there.
+// Appends a drawable and its meshlets. Triangles keep their order; ids go on from those already there.
 void append_mesh(Geometry& geometry, const MeshView& mesh);
 
 }  // namespace shoal

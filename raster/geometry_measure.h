@@ -1,4 +1,4 @@
-// How much a mesh takes once chunked, so that a builder can reserve exactly; how far a chunk reaches
+// How much a mesh takes once meshleted, so that a builder can reserve exactly; how far a meshlet reaches
 // (raster/geometry.cpp).
 #pragma once
 
@@ -9,7 +9,7 @@
 namespace shoal {
 
 struct GeometrySize {
-  std::size_t vertices = 0, corners = 0, triangles = 0, chunks = 0, drawables = 0;
+  std::size_t vertices = 0, corners = 0, triangles = 0, meshlets = 0, drawables = 0;
 };
 
 // Adds what append_mesh(geometry, mesh) would append. Reads indices, vertex_count, index_count and drawn only.
@@ -18,7 +18,7 @@ void measure_mesh(const MeshView& mesh, GeometrySize& size);
 // Reserves room for `size` more in every array; the colours' too when `with_colors`.
 void reserve_geometry(Geometry& geometry, const GeometrySize& size, bool with_colors);
 
-// Bounds and longest edge of a chunk whose vertices and corners are in place.
-void measure_chunk(const Geometry& geometry, Chunk& chunk);
+// Bounds and longest edge of a meshlet whose vertices and corners are in place.
+void measure_meshlet(const Geometry& geometry, Meshlet& meshlet);
 
 }  // namespace shoal

@@ -3,7 +3,7 @@
 
 #include "raster/front_end.h"
 #include "raster/geometry.h"
-#include "raster/material.h"
+#include "shading/material.h"
 
 namespace shoal {
 
@@ -13,7 +13,7 @@ inline GeometryView view_of(const Geometry& geometry, const Materials& materials
           geometry.y_world.data(),
           geometry.z_world.data(),
           {geometry.corner0.data(), geometry.corner1.data(), geometry.corner2.data()},
-          geometry.chunks.data(),
+          geometry.meshlets.data(),
           geometry.vertices.data(),
           geometry.colors.empty() ? nullptr : geometry.colors.data(),
           geometry.triangles.data(),

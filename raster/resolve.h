@@ -12,7 +12,7 @@
 #include "core/vec_lanes.h"
 #include "raster/front_end.h"
 #include "raster/ray_triangle.h"
-#include "raster/surface.h"
+#include "shading/surface.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -208,7 +208,7 @@ SHOAL_INLINE UvPoint<WideF> map_point(const GeometryView& g, const PixelAttribut
   return map.transformed ? transform_uv<WideF>(map, p) : p;
 }
 
-// Alpha test of the visibility pass: the covered pixels of a masked triangle that its material keeps.
+// Alpha test of the visibility pass: the covered pixels of a alpha-tested triangle that its material keeps.
 __attribute__((noinline)) inline WideM alpha_cut(const GeometryView& g, const Materials& materials,
                                                  const Ray<WideF>& ray, const RayDifferential<WideF>& differential,
                                                  std::int32_t id, WideM cover) {

@@ -23,7 +23,7 @@ struct PassSettings {
   int x_min = 0, y_min = 0, x_max = -1, y_max = -1;
   const std::uint8_t* tile_active = nullptr;  // [tiles] 0: nothing is binned there; null: all are active
   bool flip_facing = false;                   // a mirrored pass sees every triangle from behind
-  bool skip_blended = false;                  // chunks of blended materials are left to a pass of their own
+  bool skip_blended = false;                  // meshlets of blended materials are left to a pass of their own
 };
 
 }  // namespace shoal
@@ -55,11 +55,11 @@ SHOAL_INLINE SnappedLanes snap(const ClipVertex<WideF>& v, Vec2f centre_px) {
 // Triangles waiting for their packet to fill.
 class TriangleSink {
  public:
-  SHOAL_INLINE TriangleSink(const PassSettings& pass, BinItem& item) : pass_(pass), item_(item) {}
+  SHOAL_INLINE TriangleSink(const PassSettings& pass, WorkItemBins& work_item) : pass_(pass), work_item_(work_item) {}
 
   // Sixteen triangles by corner. Culls back faces (unless two_sided), zero areas and triangles that hold no sample.
   SHOAL_INLINE void add(SnappedLanes a, SnappedLanes b, SnappedLanes c, WideI id, WideM active, bool two_sided,
-                        bool masked) {
+                        bool alpha_tested) {
     const WideI min_x = min(min(a.x, b.x), c.x), max_x = max(max(a.x, b.x), c.x);
     const WideI min_y = min(min(a.y, b.y), c.y), max_y = max(max(a.y, b.y), c.y);
     // First and last sample (pixel centre) in the box; none: first > last.
@@ -77,7 +77,7 @@ class TriangleSink {
     }
     const WideM small = (max_x - min_x <= WideI(kSmallExtent)) & (max_y - min_y <= WideI(kSmallExtent));
     const WideM is_large = active & !small;
-    if (any(is_large)) add_large(a, b, c, id, to_bits(is_large), two_sided, masked, x0, y0, x1, y1);
+    if (any(is_large)) add_large(a, b, c, id, to_bits(is_large), two_sided, alpha_tested, x0, y0, x1, y1);
 
     // Twice the area, exact in 32 bits for small triangles. The screen's y points down, so a counter-clockwise triangle
     // has (b - a) x (c - a) < 0 there.
@@ -91,8 +91,8 @@ class TriangleSink {
       b = {select(back, c.x, b.x), select(back, c.y, b.y), select(back, c.depth, b.depth)};
       c = {select(back, t.x, c.x), select(back, t.y, c.y), select(back, t.depth, c.depth)};
     }
-    if (masked != staged_masked_ && staged_ > 0) flush();
-    staged_masked_ = masked;
+    if (alpha_tested != staged_alpha_tested_ && staged_ > 0) flush();
+    staged_alpha_tested_ = alpha_tested;
     stage(stage_.x[0], a.x, keep), stage(stage_.y[0], a.y, keep), stage(stage_.depth[0], a.depth, keep);
     stage(stage_.x[1], b.x, keep), stage(stage_.y[1], b.y, keep), stage(stage_.depth[1], b.depth, keep);
     stage(stage_.x[2], c.x, keep), stage(stage_.y[2], c.y, keep), stage(stage_.depth[2], c.depth, keep);
@@ -104,14 +104,14 @@ class TriangleSink {
     if (staged_ >= 16) flush();
   }
 
-  // Call once at the end of an item.
+  // Call once at the end of an work_item.
   void finish() {
     while (staged_ > 0) flush();
-    item_.sort_by_tile(pass_.grid);
+    work_item_.sort_by_tile(pass_.grid);
   }
 
   const PassSettings& pass() const { return pass_; }
-  BinItem& item() { return item_; }
+  WorkItemBins& work_item() { return work_item_; }
 
  private:
   // Room for a full packet and the sixteen that overflow it.
@@ -126,8 +126,8 @@ class TriangleSink {
 
   __attribute__((noinline)) void flush() {
     const int count = staged_ < 16 ? staged_ : 16;
-    const std::uint32_t index = static_cast<std::uint32_t>(item_.packets.size());
-    TrianglePacket& p = item_.packets.push();
+    const std::uint32_t index = static_cast<std::uint32_t>(work_item_.packets.size());
+    TrianglePacket& p = work_item_.packets.push();
     for (int k = 0; k < 3; ++k) {
       move16(p.x[k], stage_.x[k]), move16(p.y[k], stage_.y[k]);
       WideF::load(stage_.depth[k]).store(p.depth[k]);
@@ -143,7 +143,7 @@ class TriangleSink {
     const WideI big(0x7FFFFFFF);
     const int x0 = reduce_min(select(valid, tx0, big)), y0 = reduce_min(select(valid, ty0, big));
     const int x1 = reduce_max(select(valid, tx1, WideI(-1))), y1 = reduce_max(select(valid, ty1, WideI(-1)));
-    const std::uint32_t kind = static_cast<std::uint32_t>(staged_masked_ ? BinKind::kSmallMasked : BinKind::kSmall)
+    const std::uint32_t kind = static_cast<std::uint32_t>(staged_alpha_tested_ ? BinKind::kSmallAlphaTested : BinKind::kSmall)
                                << 30;
     if (x0 == x1 && y0 == y1) {
       add_entry(x0, y0, kind | index, filled);
@@ -160,7 +160,7 @@ class TriangleSink {
         for (int y = extract(ty0, lane); y <= extract(ty1, lane); ++y)
           for (int x = extract(tx0, lane); x <= extract(tx1, lane); ++x) add_entry(x, y, kind | index, 1u << lane);
     }
-    item_.triangles_out += static_cast<std::uint64_t>(count);
+    work_item_.triangles_out += static_cast<std::uint64_t>(count);
     staged_ -= count;
   }
 
@@ -173,11 +173,11 @@ class TriangleSink {
   SHOAL_INLINE void add_entry(int tile_x, int tile_y, std::uint32_t kind_and_index, std::uint32_t lanes) {
     const std::uint32_t tile = static_cast<std::uint32_t>(tile_y * pass_.grid.tiles_x + tile_x);
     if (pass_.tile_active != nullptr && pass_.tile_active[tile] == 0) return;
-    item_.entries.push() = {tile, kind_and_index, lanes};
+    work_item_.entries.push() = {tile, kind_and_index, lanes};
   }
 
   __attribute__((noinline)) void add_large(SnappedLanes a, SnappedLanes b, SnappedLanes c, WideI id,
-                                           std::uint32_t lanes, bool two_sided, bool masked, WideI x0, WideI y0,
+                                           std::uint32_t lanes, bool two_sided, bool alpha_tested, WideI x0, WideI y0,
                                            WideI x1, WideI y1) {
     for (; lanes != 0; lanes &= lanes - 1) {
       const int lane = __builtin_ctz(lanes);
@@ -195,10 +195,10 @@ class TriangleSink {
         t.x[1] = t.x[2], t.y[1] = t.y[2], t.depth[1] = t.depth[2];
         t.x[2] = x, t.y[2] = y, t.depth[2] = depth;
       }
-      const std::uint32_t kind = static_cast<std::uint32_t>(masked ? BinKind::kLargeMasked : BinKind::kLarge) << 30;
-      const std::uint32_t index = static_cast<std::uint32_t>(item_.large.size());
-      item_.large.push() = t;
-      ++item_.triangles_out;
+      const std::uint32_t kind = static_cast<std::uint32_t>(alpha_tested ? BinKind::kLargeAlphaTested : BinKind::kLarge) << 30;
+      const std::uint32_t index = static_cast<std::uint32_t>(work_item_.large.size());
+      work_item_.large.push() = t;
+      ++work_item_.triangles_out;
       const int shift = pass_.grid.tile_shift;
       const int tx0 = extract(x0, lane) >> shift, tx1 = extract(x1, lane) >> shift;
       const int ty0 = extract(y0, lane) >> shift, ty1 = extract(y1, lane) >> shift;
@@ -224,10 +224,10 @@ class TriangleSink {
   }
 
   const PassSettings& pass_;
-  BinItem& item_;
+  WorkItemBins& work_item_;
   Stage stage_;
   int staged_ = 0;
-  bool staged_masked_ = false;
+  bool staged_alpha_tested_ = false;
 };
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -6,8 +6,8 @@
 //   Plane clip_plane() const;                                   // kept: inside; before the vertex program
 //   WideM inside(Vec3<WideF> p) const;                          // the same test, sixteen points
 //   WideM edge_bends(Vec3<WideF> a, Vec3<WideF> b) const;       // symmetric in a and b, bit for bit
-//   bool chunk_inside(const Chunk&) const;                      // whole chunk inside of the plane
-//   bool chunk_bends(const Chunk&) const;                       // false: no edge of it bends (a bound)
+//   bool meshlet_inside(const Meshlet&) const;                      // whole meshlet inside of the plane
+//   bool meshlet_bends(const Meshlet&) const;                       // false: no edge of it bends (a bound)
 //   bool box_outside_view(Vec3f lo, Vec3f hi) const;            // true only if nothing in the world box can show
 //
 // An edge's split is decided from its end points alone and the new vertex is their midpoint (a + b) / 2, the same bits
@@ -29,9 +29,9 @@ inline constexpr int kMaxSubdivisionLevel = 16;
 struct WorldTriangle {
   Vec3f p[3];
   std::int32_t id;
-  std::int32_t flags;  // level | two_sided << 8 | masked << 9
+  std::int32_t flags;  // level | two_sided << 8 | alpha_tested << 9
 };
-inline constexpr std::int32_t kFlagTwoSided = 1 << 8, kFlagMasked = 1 << 9, kLevelMask = 0xFF;
+inline constexpr std::int32_t kFlagTwoSided = 1 << 8, kFlagAlphaTested = 1 << 9, kLevelMask = 0xFF;
 
 }  // namespace shoal
 
@@ -42,8 +42,8 @@ class Tessellator {
  public:
   SHOAL_INLINE Tessellator(const Program& program, TriangleSink& sink) : program_(program), sink_(sink) {}
 
-  void add(Vec3f a, Vec3f b, Vec3f c, std::int32_t id, bool two_sided, bool masked) {
-    const std::int32_t flags = (two_sided ? kFlagTwoSided : 0) | (masked ? kFlagMasked : 0);
+  void add(Vec3f a, Vec3f b, Vec3f c, std::int32_t id, bool two_sided, bool alpha_tested) {
+    const std::int32_t flags = (two_sided ? kFlagTwoSided : 0) | (alpha_tested ? kFlagAlphaTested : 0);
     if constexpr (Program::kWarped) {
       const Polygon<Vec3f> polygon = clip_to_plane(a, b, c, program_.clip_plane());
       for (int i = 2; i < polygon.count; ++i)
@@ -95,7 +95,7 @@ class Tessellator {
         }
         if ((batch[l].flags & kLevelMask) >= kMaxSubdivisionLevel) {
           split &= ~(1u << l);
-          ++sink_.item().subdivision_capped;
+          ++sink_.work_item().subdivision_capped;
           continue;
         }
         subdivide(batch[l], ((split_ab >> l) & 1u) | (((split_bc >> l) & 1u) << 1) | (((split_ca >> l) & 1u) << 2));
@@ -154,10 +154,10 @@ class Tessellator {
   SHOAL_INLINE void add_by_flags(const SnappedLanes& a, const SnappedLanes& b, const SnappedLanes& c, WideI id,
                                  WideI flags, WideM active) {
     const WideM two_sided = (flags & WideI(kFlagTwoSided)) != WideI(0),
-                masked = (flags & WideI(kFlagMasked)) != WideI(0);
+                alpha_tested = (flags & WideI(kFlagAlphaTested)) != WideI(0);
     for (int kind = 0; kind < 4; ++kind) {
       const bool two = (kind & 1) != 0, mask = (kind & 2) != 0;
-      const WideM lanes = active & (two ? two_sided : !two_sided) & (mask ? masked : !masked);
+      const WideM lanes = active & (two ? two_sided : !two_sided) & (mask ? alpha_tested : !alpha_tested);
       if (any(lanes)) sink_.add(a, b, c, id, lanes, two, mask);
     }
   }
@@ -176,7 +176,7 @@ class Tessellator {
     };
     for (int i = 2; i < p.count; ++i) {
       sink_.add(snapped(p.vertex[0]), snapped(p.vertex[i - 1]), snapped(p.vertex[i]), WideI(t.id), mask_from_bits(1u),
-                (t.flags & kFlagTwoSided) != 0, (t.flags & kFlagMasked) != 0);
+                (t.flags & kFlagTwoSided) != 0, (t.flags & kFlagAlphaTested) != 0);
     }
   }
 

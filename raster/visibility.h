@@ -84,23 +84,23 @@ class TileRaster {
       for (float& f : farthest_[r]) f = 0.0f;
   }
 
-  void draw(const BinItem& item, std::uint32_t tile) {
-    const std::uint32_t end = item.tile_first[tile + 1];
-    for (std::uint32_t i = item.tile_first[tile]; i < end; ++i) {
-      const BinEntry& e = item.sorted[i];
+  void draw(const WorkItemBins& work_item, std::uint32_t tile) {
+    const std::uint32_t end = work_item.tile_first[tile + 1];
+    for (std::uint32_t i = work_item.tile_first[tile]; i < end; ++i) {
+      const BinEntry& e = work_item.sorted[i];
       const std::uint32_t index = e.kind_and_index & kBinIndexMask;
       switch (static_cast<BinKind>(e.kind_and_index >> 30)) {
         case BinKind::kSmall:
-          draw_packet<false>(item.packets[index], e.lanes);
+          draw_packet<false>(work_item.packets[index], e.lanes);
           break;
-        case BinKind::kSmallMasked:
-          draw_packet<true>(item.packets[index], e.lanes);
+        case BinKind::kSmallAlphaTested:
+          draw_packet<true>(work_item.packets[index], e.lanes);
           break;
         case BinKind::kLarge:
-          draw_large<false>(item.large[index]);
+          draw_large<false>(work_item.large[index]);
           break;
-        case BinKind::kLargeMasked:
-          draw_large<true>(item.large[index]);
+        case BinKind::kLargeAlphaTested:
+          draw_large<true>(work_item.large[index]);
           break;
       }
     }
@@ -110,7 +110,7 @@ class TileRaster {
   static constexpr int kMaxRegions = 16;  // of a 256-pixel tile
 
   // Sixteen small triangles: edges and planes of all lanes at once, then one triangle after the other.
-  template <bool kMasked>
+  template <bool kAlphaTested>
   __attribute__((noinline)) void draw_packet(const TrianglePacket& p, std::uint32_t lanes) {
     WideI x[3], y[3];
     WideF depth[3];
@@ -165,7 +165,7 @@ class TileRaster {
         WideI e0 = row0, e1 = row1, e2 = row2;
         for (int block_col = s.bx0[l]; block_col <= s.bx1[l]; ++block_col) {
           const WideM cover = (e0 | e1 | e2) >= WideI(0);
-          if (any(cover)) write_block<kMasked>(block_col, block_row, cover, plane, id);
+          if (any(cover)) write_block<kAlphaTested>(block_col, block_row, cover, plane, id);
           e0 = e0 + step0, e1 = e1 + step1, e2 = e2 + step2;
         }
         row0 = row0 + down0, row1 = row1 + down1, row2 = row2 + down2;
@@ -188,7 +188,7 @@ class TileRaster {
     ((e1 * dx2 - e2 * dx1) * r).store(out_dy);
   }
 
-  template <bool kMasked>
+  template <bool kAlphaTested>
   SHOAL_INLINE void write_block(int block_col, int block_row, WideM cover, const DepthPlane& plane, std::int32_t id) {
     // Offsets from the first corner are exact in float: they are below 2^24.
     const WideF fx =
@@ -200,11 +200,11 @@ class TileRaster {
     if constexpr (TakesFragments<AlphaTest>) {
       alpha_.fragment(id, block_col, block_row, cover, depth);
     } else {
-      keep_nearest<kMasked>(block_col, block_row, cover, depth, id);
+      keep_nearest<kAlphaTested>(block_col, block_row, cover, depth, id);
     }
   }
 
-  template <bool kMasked>
+  template <bool kAlphaTested>
   SHOAL_INLINE void keep_nearest(int block_col, int block_row, WideM cover, WideF depth, std::int32_t id) {
     const std::size_t at = out_.grid.block_offset(block_col, block_row);
     float* depth_at = out_.depth.data() + at;
@@ -213,7 +213,7 @@ class TileRaster {
     const WideI old_id = WideI::load(id_at);
     WideM pass = cover & ((depth > old_depth) | ((depth == old_depth) & (WideI(id) < old_id)));
     if (none(pass)) return;
-    if constexpr (kMasked && AlphaTest::kTests) {
+    if constexpr (kAlphaTested && AlphaTest::kTests) {
       pass = pass & alpha_(id, block_col * 4, block_row * 4, pass);
     }
     store_masked(depth_at, depth, pass);
@@ -221,7 +221,7 @@ class TileRaster {
   }
 
   // One large triangle: 64-pixel blocks in 64-bit arithmetic, then 32-bit descent inside.
-  template <bool kMasked>
+  template <bool kAlphaTested>
   __attribute__((noinline)) void draw_large(const LargeTriangle& t) {
     DepthPlane plane;
     plane.x0 = t.x[0], plane.y0 = t.y[0], plane.d0 = t.depth[0];
@@ -238,10 +238,10 @@ class TileRaster {
       plane.dy = (e1 * dx2 - e2 * dx1) * r;
     }
     for (int y = y0_; y < y1_; y += kRegionSize)
-      for (int x = x0_; x < x1_; x += kRegionSize) draw_large_region<kMasked>(t, plane, x, y);
+      for (int x = x0_; x < x1_; x += kRegionSize) draw_large_region<kAlphaTested>(t, plane, x, y);
   }
 
-  template <bool kMasked>
+  template <bool kAlphaTested>
   SHOAL_INLINE void draw_large_region(const LargeTriangle& t, const DepthPlane& plane, int x_px, int y_px) {
     // Edge functions at the region's first sample, in units of a pixel step (their low eight bits are the same at every
     // sample and only the sign of the floor matters).
@@ -294,7 +294,7 @@ class TileRaster {
           cover = all_edges >= WideI(0);
           if (none(cover)) continue;
         }
-        write_block_large<kMasked>((x_px + x4) >> 2, (y_px + y4) >> 2, cover, plane, t.id,
+        write_block_large<kAlphaTested>((x_px + x4) >> 2, (y_px + y4) >> 2, cover, plane, t.id,
                                    farthest[(y4 >> 2) * 16 + (x4 >> 2)]);
       }
     }
@@ -320,15 +320,15 @@ class TileRaster {
 
   // As write_block, with early rejection: `farthest` bounds the block's depths from below (it may be stale: depths only
   // grow).
-  template <bool kMasked>
+  template <bool kAlphaTested>
   SHOAL_INLINE void write_block_large(int block_col, int block_row, WideM cover, const DepthPlane& plane,
                                       std::int32_t id, float& farthest) {
     if constexpr (TakesFragments<AlphaTest>) {
-      write_block<kMasked>(block_col, block_row, cover, plane, id);
+      write_block<kAlphaTested>(block_col, block_row, cover, plane, id);
       return;
     }
     if (plane.hi < farthest) return;
-    write_block<kMasked>(block_col, block_row, cover, plane, id);
+    write_block<kAlphaTested>(block_col, block_row, cover, plane, id);
     if (all(cover))
       farthest = reduce_min(WideF::load(out_.depth.data() + out_.grid.block_offset(block_col, block_row)));
   }

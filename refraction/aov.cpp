@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "raster/camera.h"
-#include "refraction/narrow/displaced_surface.h"
+#include "water/displaced_surface.h"
 
 namespace shoal {
 

@@ -5,9 +5,9 @@
 // refraction/ (broad and narrow phase).
 #include "refraction/frame.h"
 
-#include "refraction/blend.h"
+#include "refraction/passes/blend.h"
 #include "refraction/stage_digests.h"
-#include "refraction/water_region.h"
+#include "refraction/passes/water_region.h"
 
 namespace shoal {
 
@@ -21,12 +21,12 @@ static void trace_sample(FrameData& f, const MethodKernels& method, ThreadPool& 
 
 void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernels& method, ThreadPool& pool,
                    StageClock& clock, StageDigests* digests) {
-  const std::size_t items = f.bins.items.size();
+  const std::size_t work_items = f.bins.work_items.size();
   const std::size_t tiles = static_cast<std::size_t>(f.bin_grid.tiles_x) * static_cast<std::size_t>(f.bin_grid.tiles_y);
   const std::size_t layer_tiles = f.tile_active.size();
   const std::size_t regions = f.grid.region_count();
 
-  // 0 Sun: its shadow maps hold the whole scene and are there already (refraction/shadow_map.h); they are drawn by
+  // 0 Sun: its shadow maps hold the whole scene and are there already (shading/shadow/shadow_map.h); they are drawn by
   // Renderer, once for a still scene, each frame for an animated one.
 
   // 1 Water: where the planes are, seen from this eye. (Flat surfaces have no heights to compute.)
@@ -37,7 +37,7 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
 
   // 2 Direct: vertex -> clip -> setup -> bin -> visibility, the water's surface first.
   kernels.water_front_end(f);
-  pool.for_each(items, [&](std::size_t item, int) { kernels.direct_front_end(f, item); });
+  pool.for_each(work_items, [&](std::size_t work_item, int) { kernels.direct_front_end(f, work_item); });
   clock.lap("direct.front_end");
   pool.for_each(tiles, [&](std::size_t tile, int) {
     kernels.draw_tile(f, f.direct, kernels.direct_alpha, nullptr, &f.water_bins, tile);
@@ -57,7 +57,7 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
     if (draws_refracted(method, water)) {
       const auto front_end =
           method.refracted_front_end != nullptr ? method.refracted_front_end : kernels.refracted_front_end;
-      pool.for_each(items, [&](std::size_t item, int) { front_end(f, water, item); });
+      pool.for_each(work_items, [&](std::size_t work_item, int) { front_end(f, water, work_item); });
       count_capped(f);
       clock.lap("refracted.front_end");
       pool.for_each(layer_tiles, [&](std::size_t tile, int) {
@@ -69,7 +69,7 @@ void render_sample(FrameData& f, const FrameKernels& kernels, const MethodKernel
 
     if (draws_mirrored(water)) {
       const WaterPass mirrored = mirrored_pass(water);
-      pool.for_each(items, [&](std::size_t item, int) { kernels.mirrored_front_end(f, mirrored, item); });
+      pool.for_each(work_items, [&](std::size_t work_item, int) { kernels.mirrored_front_end(f, mirrored, work_item); });
       clock.lap("reflected.front_end");
       pool.for_each(layer_tiles, [&](std::size_t tile, int) {
         if (f.tile_active[tile] != 0)

@@ -17,12 +17,12 @@
 #include "raster/visibility.h"
 #include "refraction/broad/broad_phase.h"
 #include "refraction/field/distance_field.h"
-#include "refraction/floor.h"
-#include "refraction/narrow/triangle_tree.h"
-#include "refraction/pass_bins.h"
+#include "refraction/field/floor.h"
+#include "trace/bvh16.h"
+#include "raster/pass_bins.h"
 #include "refraction/renderer.h"
-#include "refraction/shadow_map.h"
-#include "refraction/trace/ray_queries.h"
+#include "shading/shadow/shadow_map.h"
+#include "trace/ray_queries.h"
 #include "scene/scene.h"
 #include "water/prepare_surface.h"
 
@@ -94,15 +94,15 @@ struct BlendLayer {
   }
 };
 
-// Blended materials (refraction/blend.h).
+// Blended materials (refraction/passes/blend.h).
 struct Blended {
-  std::vector<std::uint32_t> chunks;  // of the scene, in submission order
-  PassBins bins;                      // of one pass at a time, over `chunks`
+  std::vector<std::uint32_t> meshlets;  // of the scene, in submission order
+  PassBins bins;                      // of one pass at a time, over `meshlets`
   BinGrid grid;                       // tiles are the 64-pixel regions, whatever the frame's own tiles are
   std::vector<FragmentLists> lists;   // [threads]
   BlendLayer direct;                  // in front of what the direct pass shows
   BlendLayer refracted, mirrored;     // on water pixels' rays beyond the surface, and back from it
-  bool any() const { return !chunks.empty(); }
+  bool any() const { return !meshlets.empty(); }
 };
 
 // The grid of the refracted and the mirrored layer: the frame's, or, where the method looks along bent rays into the
@@ -163,11 +163,11 @@ struct FrameData {
   GeometryView water_geometry;                     // the outlines of the bodies of water
   SunShadows shadows;                              // of the sun, which stands still as the scene does
   std::unique_ptr<RayQueries> rays;                // where the method or the shadows trace rays, else null
-  std::unique_ptr<TriangleTree> tree;              // over the scene, where there is water, else null
+  std::unique_ptr<Bvh16> tree;              // over the scene, where there is water, else null
   std::unique_ptr<DistanceFields> fields;          // of the method that has them, else null
   std::vector<Floor> floors;                       // of the bodies, for the method that knows nothing else
   float method_option[kMaxMethodOptions] = {};     // of the method, in the order of its list
-  std::vector<std::uint32_t> outline_first_chunk;  // of body b; one more at the end
+  std::vector<std::uint32_t> outline_first_meshlet;  // of body b; one more at the end
   std::vector<SurfaceModel> surface_models;        // of the bodies
 
   // This frame.

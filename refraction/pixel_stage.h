@@ -2,10 +2,10 @@
 #pragma once
 
 #include "raster/resolve.h"
-#include "raster/sky.h"
-#include "raster/surface.h"
+#include "shading/sky.h"
+#include "shading/surface.h"
 #include "refraction/frame_data.h"
-#include "refraction/narrow/exact_ray.h"
+#include "water/exact_ray.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -85,7 +85,7 @@ struct ShadedLanes {
 void shade_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, WideI id,
                 WideM active, const WaterPass* water, ShadedLanes& out);
 
-// The covered pixels that a masked triangle's material keeps where the rays meet it.
+// The covered pixels that a alpha-tested triangle's material keeps where the rays meet it.
 std::uint32_t alpha_bits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential,
                          std::int32_t id, std::uint32_t cover);
 

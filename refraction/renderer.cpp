@@ -8,12 +8,12 @@
 #include "core/thread_pool.h"
 #include "raster/geometry_view.h"
 #include "refraction/aov.h"
-#include "refraction/blend.h"
+#include "refraction/passes/blend.h"
 #include "refraction/frame.h"
-#include "refraction/method_options.h"
-#include "refraction/sample_positions.h"
+#include "refraction/methods/options.h"
+#include "refraction/data/sample_positions.h"
 #include "refraction/stage_digests.h"
-#include "refraction/water_region.h"
+#include "refraction/passes/water_region.h"
 
 namespace shoal {
 
@@ -82,10 +82,10 @@ struct Renderer::Impl {
     f.geometry = view_of(scene.geometry, scene.materials);
     f.water_geometry = view_of(outlines, outline_materials);
     filter_materials();
-    f.bins = make_bins(scene.geometry.chunks.size());
-    f.water_bins.items.resize(scene.waters.size());
+    f.bins = make_bins(scene.geometry.meshlets.size());
+    f.water_bins.work_items.resize(scene.waters.size());
     if (!scene.waters.empty() && method.kernels.trace == nullptr) {
-      f.tree = std::make_unique<TriangleTree>();
+      f.tree = std::make_unique<Bvh16>();
       f.tree->build(scene.geometry, scene.materials, waves, pool);
     }
     read_method_options(method, settings.method_options, f.method_option);
@@ -107,10 +107,10 @@ struct Renderer::Impl {
     surface.double_sided = true;
     outline_materials.materials.assign(1, surface);
     outlines = Geometry{};
-    std::vector<std::uint32_t>& first_chunk = frame.outline_first_chunk;
-    first_chunk.clear();
+    std::vector<std::uint32_t>& first_meshlet = frame.outline_first_meshlet;
+    first_meshlet.clear();
     for (const WaterBody& body : scene.waters) {
-      first_chunk.push_back(static_cast<std::uint32_t>(outlines.chunks.size()));
+      first_meshlet.push_back(static_cast<std::uint32_t>(outlines.meshlets.size()));
       const std::vector<Vec3f> normals(body.outline.size(), body.normal);
       std::vector<std::uint32_t> indices(body.outline.size());
       for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<std::uint32_t>(i);
@@ -121,7 +121,7 @@ struct Renderer::Impl {
       mesh.vertex_count = mesh.index_count = static_cast<std::uint32_t>(indices.size());
       append_mesh(outlines, mesh);
     }
-    first_chunk.push_back(static_cast<std::uint32_t>(outlines.chunks.size()));
+    first_meshlet.push_back(static_cast<std::uint32_t>(outlines.meshlets.size()));
   }
 
   // Every pass reads its samplers from the view's materials.

@@ -89,7 +89,7 @@ struct Frame {
   std::vector<std::pair<std::string, std::uint64_t>> rays;     // traced, by kind; empty where none were
 };
 
-// Holds what does not depend on camera and time: chunks, buffers, threads; of an animated scene a copy of its own,
+// Holds what does not depend on camera and time: meshlets, buffers, threads; of an animated scene a copy of its own,
 // which it moves. One frame at a time.
 class Renderer {
  public:

@@ -1,11 +1,11 @@
 // Resolve, light and post, fused: a region of the frame from visible ids to 8-bit pixels while it is in cache.
 #pragma once
 
-#include "raster/post.h"
-#include "refraction/blend_region.h"
-#include "refraction/narrow/rough_mirror.h"
+#include "shading/post.h"
+#include "refraction/passes/blend_region.h"
+#include "water/rough_mirror.h"
 #include "refraction/pixel_stage.h"
-#include "refraction/trace/path.h"
+#include "trace/path.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -80,7 +80,7 @@ SHOAL_INLINE Vec3<WideF> look(const FrameData& f, const WaterPass& water, const 
   return radiance;
 }
 
-// A method that looks into the lit layer (refraction/shade_before.h) says so.
+// A method that looks into the lit layer (refraction/methods/image_space.h) says so.
 template <class M>
 concept ShadesBefore = M::kShadesBefore;
 // And one that mirrors other rays than the true ones.

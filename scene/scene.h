@@ -8,7 +8,7 @@
 #include "core/vec.h"
 #include "raster/camera.h"
 #include "raster/geometry.h"
-#include "raster/material.h"
+#include "shading/material.h"
 #include "scene/animation.h"
 #include "water/body.h"
 
@@ -88,17 +88,17 @@ struct Scene {
   std::vector<LightSpec> lights;
   std::vector<WaterSpec> waters;
   std::vector<Skin> skins;
-  std::vector<Animation> animations;   // which of them play: playing_channels (scene/animate.h)
+  std::vector<Animation> animations;   // which of them play: playing_channels (scene/build/animate.h)
   std::vector<LocalTransform> locals;  // one a node; empty where there are no animations
   Materials materials;
   bool has_background = false;  // else: the default (a sky where the scene is lit, black where all of it is unlit)
   Background background;
   std::string environment_file;  // the picture that the scene names as its environment (extras.environment), not read
-                                 // yet: load_environment (scene/environment.h) makes a background of it; empty: none
+                                 // yet: load_environment (scene/images/environment.h) makes a background of it; empty: none
   std::vector<std::string> warnings;  // what the file holds and we do not read yet, a line each
 };
 
-// The scene ready to render: world space, chunked, cameras placed.
+// The scene ready to render: world space, meshleted, cameras placed.
 struct PlacedCamera {
   std::string name;
   std::uint32_t node = 0;
@@ -108,7 +108,7 @@ struct PlacedCamera {
 struct MovingDrawable {
   std::uint32_t drawable = 0;  // into Geometry::drawables
   std::uint32_t node = 0, primitive = 0;
-  std::uint32_t first_chunk = 0, chunk_count = 0;
+  std::uint32_t first_meshlet = 0, meshlet_count = 0;
   std::uint32_t first_vertex = 0;
   std::vector<std::uint32_t> source;  // vertex of the primitive, for each vertex from first_vertex on, padding too
   bool mirrored = false;              // its triangles are turned now
@@ -134,12 +134,12 @@ struct RenderScene {
   bool moves() const { return !motion.node_moves.empty(); }
 };
 
-// scene/build.cpp. Bakes nodes into world space, flips the winding under negative scale, resolves water bodies (outline
+// scene/build/build.cpp. Bakes nodes into world space, flips the winding under negative scale, resolves water bodies (outline
 // from size or from the node's planar mesh, depth down to the scene's bottom where none is given) and gives a lit scene
 // without lights the default sun and sky (docs/scenes.md). An animated scene is as it is at time 0.
 RenderScene build_render_scene(const Scene& scene);
 
-// scene/motion.cpp. Moves an animated scene to a time: vertices, normals, bounds and chunks of the drawables that move,
+// scene/build/motion.cpp. Moves an animated scene to a time: vertices, normals, bounds and meshlets of the drawables that move,
 // bodies of water, lights, cameras. Only those: a scene that does not move costs a test. The result depends on the time
 // alone, not on the times before.
 //   time_s  finite; before the first and after the last key of a channel its end stands

@@ -1,4 +1,4 @@
-// Lanes of sixteen bits: the few operations that filtering of 15-bit texels needs (raster/texel_filter.h).
+// Lanes of sixteen bits: the few operations that filtering of 15-bit texels needs (shading/textures/texel_filter.h).
 //
 // A register holds 1, 2 or 4 lanes of 128 bits, and every operation stays within them (low16 and its kin interleave the
 // lower or upper halves of each): code on top is one for every register size, and sees the same numbers.

@@ -1,4 +1,4 @@
-// Look-ups in a table of 64 words: a chunk's vertices.
+// Look-ups in a table of 64 words: a meshlet's vertices.
 #pragma once
 
 #include <cstdint>

@@ -13,7 +13,7 @@ namespace {
 
 enum Option { kBlock, kOptionCount };
 constexpr MethodOption kOptions[kOptionCount] = {
-    {"block", "8", "pixels a side of the blocks whose corners are traced", MethodOption::Kind::kWhole, 1, 32},
+    {"block", "8", "pixels a side of the blocks whose corners are traced", MethodOption::Kind::kInt, 1, 32},
 };
 
 struct BlockGrid : TrueRays {

@@ -15,10 +15,10 @@ namespace {
 
 enum Option { kResolution, kStop, kSteps, kOptionCount };
 constexpr MethodOption kOptions[kOptionCount] = {
-    {"resolution", "128", "voxels along the field's longest side", MethodOption::Kind::kWhole, 8, 512},
-    {"stop", "0.5", "voxels: a ray that passes the nearest triangle no farther meets it", MethodOption::Kind::kReal, 0,
+    {"resolution", "128", "voxels along the field's longest side", MethodOption::Kind::kInt, 8, 512},
+    {"stop", "0.5", "voxels: a ray that passes the nearest triangle no farther meets it", MethodOption::Kind::kFloat, 0,
      4},
-    {"steps", "512", "of a ray, at most", MethodOption::Kind::kWhole, 1, 4096},
+    {"steps", "512", "of a ray, at most", MethodOption::Kind::kInt, 1, 4096},
 };
 
 struct DistanceFieldMethod : TrueRays {};

@@ -3,7 +3,7 @@
 // Source  Liu, Han and Fei 2020, Figs. 14 and 15, "the commonly used approach": the scene's colour, sampled at an
 //         offset that the normal's tangential part gives. Engines differ in its strength, an option here.
 // Differs The offset is in shares of the frame's height, for both axes, so that it keeps its shape in any frame.
-#include "refraction/shade_before.h"
+#include "refraction/methods/image_space.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -11,9 +11,9 @@ namespace {
 
 enum Option { kStrength, kReflection, kOptionCount };
 constexpr MethodOption kOptions[kOptionCount] = {
-    {"strength", "0.1", "offset in frame heights for a normal that lies on its side", MethodOption::Kind::kReal, -10,
+    {"strength", "0.1", "offset in frame heights for a normal that lies on its side", MethodOption::Kind::kFloat, -10,
      10},
-    {"reflection", "true", "the mirrored picture is pushed too", MethodOption::Kind::kTruth, 0, 1},
+    {"reflection", "true", "the mirrored picture is pushed too", MethodOption::Kind::kBool, 0, 1},
 };
 
 struct Distort : StraightRays {

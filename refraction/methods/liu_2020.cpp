@@ -10,8 +10,8 @@
 //         before it is projected: so flat water shows each pixel itself.
 //         as-printed=true has line 8, the turned view ray and the projection as they are printed.
 #include "refraction/broad/path_length_map.h"
-#include "refraction/narrow/plane_look.h"
-#include "refraction/shade_before.h"
+#include "refraction/narrow/plane_intersection.h"
+#include "refraction/methods/image_space.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -19,7 +19,7 @@ namespace {
 
 enum Option { kAsPrinted, kTessellate, kOptionCount };
 constexpr MethodOption kOptions[kOptionCount] = {
-    {"as-printed", "false", "the algorithms to the letter, misprints included", MethodOption::Kind::kTruth, 0, 1},
+    {"as-printed", "false", "the algorithms to the letter, misprints included", MethodOption::Kind::kBool, 0, 1},
     kTessellateOption,
 };
 

@@ -18,7 +18,7 @@
 #include "refraction/kernels.h"
 #include "refraction/narrow/confirm_hit.h"
 #include "refraction/narrow/layer_edges.h"
-#include "refraction/narrow/meet_water.h"
+#include "water/nearest_water.h"
 #include "refraction/pixel_stage.h"
 #include "refraction/shade_block.h"
 

@@ -3,8 +3,8 @@
 //
 // Source  Liu, Han and Fei 2020, Figs. 8 and 9 (their ablation).
 // Differs As liu-2020's narrow phase: Snell's ray, and the world's planes.
-#include "refraction/narrow/plane_look.h"
-#include "refraction/shade_before.h"
+#include "refraction/narrow/plane_intersection.h"
+#include "refraction/methods/image_space.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 

@@ -9,7 +9,7 @@
 //         the depth or below the weight sees the background, so that a white scene stays white.
 // Error   Which triangle is met is Embree's answer (robust mode); the point on it is our own arithmetic (resolve.h).
 #include "refraction/kernels.h"
-#include "refraction/trace/follow_path.h"
+#include "trace/path_tracer.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -17,10 +17,10 @@ namespace {
 
 enum Option { kDepth, kWeight, kReflection, kRefraction, kOptionCount };
 constexpr MethodOption kOptions[kOptionCount] = {
-    {"depth", "4", "surfaces of water that a path may meet, and one", MethodOption::Kind::kWhole, 1, 8},
-    {"weight", "0.001", "rays that count for less see the background", MethodOption::Kind::kReal, 0, 1},
-    {"reflection", "true", "follow reflected rays", MethodOption::Kind::kTruth, 0, 1},
-    {"refraction", "true", "follow refracted rays", MethodOption::Kind::kTruth, 0, 1},
+    {"depth", "4", "surfaces of water that a path may meet, and one", MethodOption::Kind::kInt, 1, 8},
+    {"weight", "0.001", "rays that count for less see the background", MethodOption::Kind::kFloat, 0, 1},
+    {"reflection", "true", "follow reflected rays", MethodOption::Kind::kBool, 0, 1},
+    {"refraction", "true", "follow refracted rays", MethodOption::Kind::kBool, 0, 1},
 };
 
 // What paths are asked of: Embree.

@@ -12,11 +12,11 @@ namespace {
 
 enum Option { kStride, kThickness, kJitter, kMaxSteps, kMaxDistance, kOptionCount };
 constexpr MethodOption kOptions[kOptionCount] = {
-    {"stride", "1", "pixels a step", MethodOption::Kind::kReal, 1, 64},
-    {"thickness", "0.5", "metres that what is drawn reaches back", MethodOption::Kind::kReal, 0.001f, 1000},
-    {"jitter", "0", "of the first step, in strides", MethodOption::Kind::kReal, 0, 1},
-    {"max-steps", "512", "of the march", MethodOption::Kind::kWhole, 1, 16384},
-    {"max-distance", "100", "metres that the refracted ray goes", MethodOption::Kind::kReal, 0.01f, 1e6f},
+    {"stride", "1", "pixels a step", MethodOption::Kind::kFloat, 1, 64},
+    {"thickness", "0.5", "metres that what is drawn reaches back", MethodOption::Kind::kFloat, 0.001f, 1000},
+    {"jitter", "0", "of the first step, in strides", MethodOption::Kind::kFloat, 0, 1},
+    {"max-steps", "512", "of the march", MethodOption::Kind::kInt, 1, 16384},
+    {"max-distance", "100", "metres that the refracted ray goes", MethodOption::Kind::kFloat, 0.01f, 1e6f},
 };
 
 struct ScreenSpace : StraightRays {

@@ -18,9 +18,9 @@ namespace {
 
 enum Option { kSteps, kPom, kPomSteps, kTessellate, kOptionCount };
 constexpr MethodOption kOptions[kOptionCount] = {
-    {"steps", "4", "of the fixed point", MethodOption::Kind::kWhole, 1, 64},
-    {"pom", "false", "parallax occlusion mapping: march to what the bent ray meets", MethodOption::Kind::kTruth, 0, 1},
-    {"pom-steps", "128", "pixels that the march may go", MethodOption::Kind::kWhole, 1, 4096},
+    {"steps", "4", "of the fixed point", MethodOption::Kind::kInt, 1, 64},
+    {"pom", "false", "parallax occlusion mapping: march to what the bent ray meets", MethodOption::Kind::kBool, 0, 1},
+    {"pom-steps", "128", "pixels that the march may go", MethodOption::Kind::kInt, 1, 4096},
     kTessellateOption,
 };
 

@@ -17,7 +17,7 @@ struct EdgeBlocks {
 // Of one region of the layer's grid; outside of the layer counts as its border does.
 //   layer  depth as drawn, larger is nearer; region  of layer.grid
 // Source: a plane's depth is linear on the screen, so its second differences are 0; what counts as an edge is ours.
-// Error: none in exact planes and steps (tests/refraction/test_triangle_tree.cpp); steps of less than a thousandth of
+// Error: none in exact planes and steps (tests/trace/test_bvh16.cpp); steps of less than a thousandth of
 //        the depth are no edges.
 EdgeBlocks find_edges(const VisibilityBuffer& layer, std::size_t region);
 

@@ -6,7 +6,7 @@
 //         buffer counts, brought to where it was crossed (parallax occlusion mapping: Tatarchuk 2006).
 #pragma once
 
-#include "refraction/shade_before.h"
+#include "refraction/methods/image_space.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "raster/texture.h"
+#include "shading/textures/texture.h"
 #include "scene/procedural/textures.h"
 
 namespace shoal::paint {

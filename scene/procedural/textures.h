@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "raster/texture.h"
+#include "shading/textures/texture.h"
 
 namespace shoal {
 

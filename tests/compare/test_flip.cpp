@@ -10,7 +10,7 @@
 #include "compare/flip.h"
 #include "compare/statistics.h"
 #include "flip_oracle.h"
-#include "scene/images.h"
+#include "scene/images/images.h"
 
 namespace shoal::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/scene/bad_files.h"
 

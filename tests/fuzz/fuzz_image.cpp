@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "scene/images.h"
+#include "scene/images/images.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace shoal::test {

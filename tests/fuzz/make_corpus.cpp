@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "scene/images.h"
+#include "scene/images/images.h"
 #include "tests/scene/bad_files.h"
 
 namespace shoal::test {

@@ -112,16 +112,16 @@ struct CountingCut {
 // What the front end and the tiles cover.
 template <class Program>
 Coverage raster_coverage(const Geometry& g, const Program& program, const PassSettings& pass, bool two_sided,
-                         std::uint32_t per_item) {
+                         std::uint32_t per_work_item) {
   Materials materials;
   Material material;
   material.alpha_mode = AlphaMode::kMask;
   material.double_sided = two_sided;
   materials.materials.push_back(material);
-  const std::vector<BinItem> items = bin_geometry(g, materials, program, pass, per_item);
+  const std::vector<WorkItemBins> work_items = bin_geometry(g, materials, program, pass, per_work_item);
   Coverage seen(pass.width_px, pass.height_px);
   VisibilityBuffer buffer;
-  draw_tiles(items, pass, CountingCut{&seen}, buffer);
+  draw_tiles(work_items, pass, CountingCut{&seen}, buffer);
   return seen;
 }
 
@@ -134,7 +134,7 @@ struct PixelProgram {
   ClipVertex<F> vertex(Vec3<F> p) const {
     return {(p.x - F(centre_px.x)) * F(w), (p.y - F(centre_px.y)) * F(w), p.z * F(w), F(w)};
   }
-  bool chunk_outside(const Chunk&) const { return false; }
+  bool meshlet_outside(const Meshlet&) const { return false; }
 };
 
 // Triangles on the pixel grid, as a mesh and as the oracle takes them.

@@ -24,23 +24,23 @@ inline PassSettings whole_frame(int width_px, int height_px, Vec2f centre_px, in
   return pass;
 }
 
-// Chunks through the vertex program into bins, `per_item` chunks an item.
+// Meshlets through the vertex program into bins, `per_work_item` meshlets an work_item.
 template <class Program>
-std::vector<BinItem> bin_geometry(const Geometry& g, const Materials& m, const Program& program,
-                                  const PassSettings& pass, std::uint32_t per_item) {
+std::vector<WorkItemBins> bin_geometry(const Geometry& g, const Materials& m, const Program& program,
+                                  const PassSettings& pass, std::uint32_t per_work_item) {
   const GeometryView view = view_of(g, m);
-  const std::uint32_t chunks = static_cast<std::uint32_t>(g.chunks.size());
-  std::vector<BinItem> items((chunks + per_item - 1) / per_item);
-  for (std::uint32_t i = 0; i < items.size(); ++i) {
-    const std::uint32_t first = i * per_item;
-    FrontEnd<Program>(view, program, pass, items[i]).run(first, std::min(first + per_item, chunks), kNoId);
+  const std::uint32_t meshlets = static_cast<std::uint32_t>(g.meshlets.size());
+  std::vector<WorkItemBins> work_items((meshlets + per_work_item - 1) / per_work_item);
+  for (std::uint32_t i = 0; i < work_items.size(); ++i) {
+    const std::uint32_t first = i * per_work_item;
+    FrontEnd<Program>(view, program, pass, work_items[i]).run(first, std::min(first + per_work_item, meshlets), kNoId);
   }
-  return items;
+  return work_items;
 }
 
-// Bins to visible ids and depths. `alpha` cuts pixels of masked materials (KeepAll: none).
+// Bins to visible ids and depths. `alpha` cuts pixels of alpha-tested materials (KeepAll: none).
 template <class AlphaTest>
-void draw_tiles(const std::vector<BinItem>& items, const PassSettings& pass, const AlphaTest& alpha,
+void draw_tiles(const std::vector<WorkItemBins>& work_items, const PassSettings& pass, const AlphaTest& alpha,
                 VisibilityBuffer& out) {
   const BinGrid& grid = pass.grid;
   out.resize(make_frame_grid(pass.width_px, pass.height_px));
@@ -50,7 +50,7 @@ void draw_tiles(const std::vector<BinItem>& items, const PassSettings& pass, con
       TileRaster<AlphaTest> raster(out, alpha, x0, y0, std::min(x0 + grid.tile_px, pass.width_px),
                                    std::min(y0 + grid.tile_px, pass.height_px));
       raster.clear();
-      for (const BinItem& item : items) raster.draw(item, static_cast<std::uint32_t>(ty * grid.tiles_x + tx));
+      for (const WorkItemBins& work_item : work_items) raster.draw(work_item, static_cast<std::uint32_t>(ty * grid.tiles_x + tx));
     }
 }
 

@@ -23,7 +23,7 @@ struct CameraProgram {
   ClipVertex<F> vertex(Vec3<F> p) const {
     return project(view, p);
   }
-  bool chunk_outside(const Chunk&) const { return false; }
+  bool meshlet_outside(const Meshlet&) const { return false; }
 };
 
 // The same, clipped by a world plane and split to a length: what a broad phase does, without bending anything.
@@ -36,14 +36,14 @@ struct SplitProgram {
   ClipVertex<F> vertex(Vec3<F> p) const {
     return project(view, p);
   }
-  bool chunk_outside(const Chunk&) const { return false; }
+  bool meshlet_outside(const Meshlet&) const { return false; }
   Plane clip_plane() const { return plane; }
   WideM inside(Vec3<WideF> p) const {
     return dot(broadcast<WideF>(plane.normal_world), p) + WideF(plane.offset_m) >= WideF(0.0f);
   }
   WideM edge_bends(Vec3<WideF> a, Vec3<WideF> b) const { return dot(b - a, b - a) > WideF(longest_m * longest_m); }
-  bool chunk_inside(const Chunk&) const { return false; }
-  bool chunk_bends(const Chunk&) const { return true; }
+  bool meshlet_inside(const Meshlet&) const { return false; }
+  bool meshlet_bends(const Meshlet&) const { return true; }
   bool box_outside_view(Vec3f, Vec3f) const { return false; }
 };
 

@@ -10,7 +10,7 @@
 
 #include "coverage_oracle.h"
 #include "raster/resolve.h"
-#include "raster/sample.h"
+#include "shading/textures/sample.h"
 
 using namespace shoal_test;
 
@@ -22,11 +22,11 @@ Vec3d to_double(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>
 double norm(Vec3d v) { return std::sqrt(dot(v, v)); }
 
 VisibilityBuffer draw(const Geometry& g, const Materials& m, const PassSettings& pass, const PixelProgram& program,
-                      std::uint32_t per_item, bool reversed_items = false) {
-  std::vector<BinItem> items = bin_geometry(g, m, program, pass, per_item);
-  std::vector<BinItem> ordered;
-  for (std::size_t i = 0; i < items.size(); ++i)
-    ordered.push_back(std::move(items[reversed_items ? items.size() - 1 - i : i]));
+                      std::uint32_t per_work_item, bool reversed_items = false) {
+  std::vector<WorkItemBins> work_items = bin_geometry(g, m, program, pass, per_work_item);
+  std::vector<WorkItemBins> ordered;
+  for (std::size_t i = 0; i < work_items.size(); ++i)
+    ordered.push_back(std::move(work_items[reversed_items ? work_items.size() - 1 - i : i]));
   VisibilityBuffer out;
   draw_tiles(ordered, pass, KeepAll{}, out);
   return out;
@@ -139,7 +139,7 @@ TEST_CASE("depth: at covered pixels as the plane of the snapped corners in doubl
   CHECK(worst < 6 * kEps);
 }
 
-TEST_CASE("depth: the nearest triangle shows, the smaller id where depths are equal, whatever order, tile or item") {
+TEST_CASE("depth: the nearest triangle shows, the smaller id where depths are equal, whatever order, tile or work_item") {
   TestRandom random(22);
   const int width = 131, height = 77;
   const Vec2f centre{65.5f, 38.5f};
@@ -168,16 +168,16 @@ TEST_CASE("depth: the nearest triangle shows, the smaller id where depths are eq
   Geometry g = geometry_of(m.positions, m.indices);
   const Materials materials = two_sided();
   for (int order = 0; order < 4; ++order) {
-    // Chunks keep their ids wherever they stand.
-    if (order == 1) std::reverse(g.chunks.begin(), g.chunks.end());
+    // Meshlets keep their ids wherever they stand.
+    if (order == 1) std::reverse(g.meshlets.begin(), g.meshlets.end());
     if (order >= 2)
-      for (std::size_t i = g.chunks.size(); i > 1; --i)
-        std::swap(g.chunks[i - 1],
-                  g.chunks[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(i) - 1))]);
+      for (std::size_t i = g.meshlets.size(); i > 1; --i)
+        std::swap(g.meshlets[i - 1],
+                  g.meshlets[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(i) - 1))]);
     for (const int tile : {16, 32, 64, 128, 256})
-      for (const std::uint32_t per_item : {1u, 5u, 1000u}) {
+      for (const std::uint32_t per_work_item : {1u, 5u, 1000u}) {
         const VisibilityBuffer out =
-            draw(g, materials, whole_frame(width, height, centre, tile), PixelProgram{centre}, per_item, order == 3);
+            draw(g, materials, whole_frame(width, height, centre, tile), PixelProgram{centre}, per_work_item, order == 3);
         long wrong = 0;
         for (int y = 0; y < height; ++y)
           for (int x = 0; x < width; ++x) {

@@ -58,11 +58,11 @@ TestMesh random_mesh(std::uint32_t vertices, std::uint32_t triangles, std::uint3
 
 bool equal(Vec3f a, Vec3f b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-// Checks one drawable's chunks against its mesh; `first` is the id of its first triangle.
+// Checks one drawable's meshlets against its mesh; `first` is the id of its first triangle.
 void check_mesh(const Geometry& g, const TestMesh& mesh, std::uint32_t first) {
   const std::size_t count = mesh.indices.size() / 3;
   std::uint32_t next = first;
-  for (const Chunk& c : g.chunks) {
+  for (const Meshlet& c : g.meshlets) {
     if (c.first_triangle < first || c.first_triangle >= first + count) continue;
     REQUIRE(c.first_triangle == next);
     REQUIRE(c.triangle_count >= 1);
@@ -114,7 +114,7 @@ void check_mesh(const Geometry& g, const TestMesh& mesh, std::uint32_t first) {
 
 }  // namespace
 
-TEST_CASE("every triangle is in one chunk, in order, with its vertices", "[geometry]") {
+TEST_CASE("every triangle is in one meshlet, in order, with its vertices", "[geometry]") {
   for (std::uint32_t seed = 1; seed <= 12; ++seed) {
     const TestMesh mesh = random_mesh(40 + 97 * seed, 50 * seed * seed, 2 + 11 * seed, seed);
     Geometry g;
@@ -126,32 +126,32 @@ TEST_CASE("every triangle is in one chunk, in order, with its vertices", "[geome
   }
 }
 
-TEST_CASE("the cut is greedy: a chunk ends only where the next triangle does not fit", "[geometry]") {
+TEST_CASE("the cut is greedy: a meshlet ends only where the next triangle does not fit", "[geometry]") {
   const TestMesh mesh = random_mesh(3000, 4000, 9, 5);
   Geometry g;
   append_mesh(g, mesh.view());
-  for (std::size_t c = 0; c + 1 < g.chunks.size(); ++c) {
-    const Chunk& chunk = g.chunks[c];
+  for (std::size_t c = 0; c + 1 < g.meshlets.size(); ++c) {
+    const Meshlet& meshlet = g.meshlets[c];
     std::set<std::uint32_t> used;
-    for (std::size_t t = chunk.first_triangle; t <= chunk.first_triangle + chunk.triangle_count; ++t) {
+    for (std::size_t t = meshlet.first_triangle; t <= meshlet.first_triangle + meshlet.triangle_count; ++t) {
       used.insert({mesh.indices[3 * t], mesh.indices[3 * t + 1], mesh.indices[3 * t + 2]});
     }
-    CHECK((chunk.triangle_count == 128 || used.size() > 64));
+    CHECK((meshlet.triangle_count == 128 || used.size() > 64));
   }
 }
 
-TEST_CASE("a triangle may use a vertex twice, and a chunk may be full to the last vertex", "[geometry]") {
+TEST_CASE("a triangle may use a vertex twice, and a meshlet may be full to the last vertex", "[geometry]") {
   TestMesh mesh = random_mesh(66, 0, 1, 3);
   for (std::uint32_t v = 0; v < 66; v += 2) mesh.indices.insert(mesh.indices.end(), {v, v + 1, v});
   Geometry g;
   append_mesh(g, mesh.view());
   check_mesh(g, mesh, 0);
-  REQUIRE(g.chunks.size() == 2);
-  CHECK(g.chunks[0].triangle_count == 32);
-  CHECK(g.chunks[0].vertex_count == 64);
+  REQUIRE(g.meshlets.size() == 2);
+  CHECK(g.meshlets[0].triangle_count == 32);
+  CHECK(g.meshlets[0].vertex_count == 64);
 }
 
-TEST_CASE("drawables go on with ids; what is not drawn has ids but no chunks", "[geometry]") {
+TEST_CASE("drawables go on with ids; what is not drawn has ids but no meshlets", "[geometry]") {
   const TestMesh a = random_mesh(100, 300, 20, 7), b = random_mesh(80, 200, 20, 8), c = random_mesh(60, 100, 20, 9);
   Geometry g;
   MeshView hidden = b.view();
@@ -171,7 +171,7 @@ TEST_CASE("drawables go on with ids; what is not drawn has ids but no chunks", "
   CHECK(g.triangles[400].material == 3);
   check_mesh(g, a, 0);
   check_mesh(g, c, 500);
-  for (const Chunk& chunk : g.chunks) CHECK((chunk.first_triangle < 300 || chunk.first_triangle >= 500));
+  for (const Meshlet& meshlet : g.meshlets) CHECK((meshlet.first_triangle < 300 || meshlet.first_triangle >= 500));
   for (std::size_t t = 300; t < 500; ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       CHECK(equal(g.vertices[g.triangles[t].vertex[k]].position_world, b.positions[b.indices[3 * (t - 300) + k]]));
@@ -206,6 +206,6 @@ TEST_CASE("what is measured is what is appended, to the last element", "[geometr
   CHECK(size.vertices == g.x_world.size());
   CHECK(size.corners == g.corner0.size());
   CHECK(size.triangles == g.triangles.size());
-  CHECK(size.chunks == g.chunks.size());
+  CHECK(size.meshlets == g.meshlets.size());
   CHECK(size.drawables == g.drawables.size());
 }

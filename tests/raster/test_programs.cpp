@@ -34,7 +34,7 @@ struct Twist {
   ClipVertex<F> vertex(Vec3<F> position_world) const {
     return project(view, turn(position_world, position_world.y));
   }
-  bool chunk_outside(const Chunk&) const { return false; }
+  bool meshlet_outside(const Meshlet&) const { return false; }
 };
 
 // A checkerboard in texture space, its white squares coloured by the normal.

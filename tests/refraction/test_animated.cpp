@@ -3,7 +3,7 @@
 #include <string>
 
 #include "refraction/renderer.h"
-#include "scene/animate.h"
+#include "scene/build/animate.h"
 
 namespace shoal::test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "raster/bin.h"
-#include "refraction/floor.h"
+#include "refraction/field/floor.h"
 #include "refraction_oracle.h"
 
 using namespace shoal_test;

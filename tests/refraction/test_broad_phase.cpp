@@ -216,7 +216,7 @@ TEST_CASE("the Hessian's bound holds for every ratio", "[refraction]") {
   }
 }
 
-TEST_CASE("a chunk's bound is above every edge in it", "[refraction]") {
+TEST_CASE("a meshlet's bound is above every edge in it", "[refraction]") {
   Random random(9);
   int finite[2] = {0, 0}, close = 0;
   for (int k = 0; k < 4000; ++k) {
@@ -229,7 +229,7 @@ TEST_CASE("a chunk's bound is above every edge in it", "[refraction]") {
       return Vec3f{x, y, z};
     };
     const Vec3f a = inside(), b = inside();
-    const float bound = chunk_deviation_bound_px(s.bp, s.view, corner, top, length(b - a));
+    const float bound = meshlet_deviation_bound_px(s.bp, s.view, corner, top, length(b - a));
     if (bound > 1e30f) continue;
     ++finite[s.bp.eye_is_thin];
     // The map's own rounding is no deviation.

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "core/thread_pool.h"
-#include "raster/environment_build.h"
+#include "shading/environment/build.h"
 #include "refraction/renderer.h"
 
 using namespace shoal;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "broad_phase_oracle.h"
-#include "refraction/narrow/exact_ray.h"
+#include "water/exact_ray.h"
 
 namespace {
 

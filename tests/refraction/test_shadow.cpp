@@ -8,7 +8,7 @@
 #include <string>
 
 #include "refraction/renderer.h"
-#include "refraction/shadow_map.h"
+#include "shading/shadow/shadow_map.h"
 
 using namespace shoal;
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "../raster/raster_driver.h"
-#include "refraction/water_programs.h"
-#include "refraction/water_region.h"
+#include "refraction/passes/water_programs.h"
+#include "refraction/passes/water_region.h"
 #include "refraction_oracle.h"
 
 using namespace shoal_test;
@@ -72,20 +72,20 @@ WaterPass pass_of(const WaterBody& body, const View& view) {
   return w;
 }
 
-// The same program with the culling of chunks off.
+// The same program with the culling of meshlets off.
 template <class Program>
 struct Unculled : Program {
-  bool chunk_outside(const Chunk&) const { return false; }
+  bool meshlet_outside(const Meshlet&) const { return false; }
 };
 
 template <class Program>
 VisibilityBuffer draw(const RenderScene& scene, const Program& program, const PassSettings& pass,
                       std::uint64_t& capped) {
-  const std::vector<BinItem> items = bin_geometry(scene.geometry, scene.materials, program, pass, 4);
+  const std::vector<WorkItemBins> work_items = bin_geometry(scene.geometry, scene.materials, program, pass, 4);
   capped = 0;
-  for (const BinItem& item : items) capped += item.subdivision_capped;
+  for (const WorkItemBins& work_item : work_items) capped += work_item.subdivision_capped;
   VisibilityBuffer out;
-  draw_tiles(items, pass, KeepAll{}, out);
+  draw_tiles(work_items, pass, KeepAll{}, out);
   return out;
 }
 
@@ -195,7 +195,7 @@ TEST_CASE("subdivision: an orthographic view needs none and is exact") {
   check("orthographic", scene, camera, 1);
 }
 
-TEST_CASE("culling: chunks that a pass leaves out would not have shown, direct, refracted and mirrored") {
+TEST_CASE("culling: meshlets that a pass leaves out would not have shown, direct, refracted and mirrored") {
   for (const char* name : {"box", "pool"}) {
     const RenderScene scene = built_in(name, 2000);
     for (const PlacedCamera& placed : scene.cameras) {

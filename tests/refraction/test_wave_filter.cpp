@@ -8,8 +8,8 @@
 
 #include "core/isa.h"
 #include "core/thread_pool.h"
-#include "raster/environment_build.h"
-#include "refraction/narrow/rough_mirror.h"
+#include "shading/environment/build.h"
+#include "water/rough_mirror.h"
 #include "refraction/renderer.h"
 #include "scene/scene.h"
 

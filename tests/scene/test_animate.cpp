@@ -1,7 +1,7 @@
 // Keyframes against double and the standard library; which animations play; what moves with what.
 #include <catch2/catch.hpp>
 
-#include "scene/animate.h"
+#include "scene/build/animate.h"
 #include "tests/scene/motion_oracle.h"
 
 namespace shoal::test {

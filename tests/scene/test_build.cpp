@@ -158,7 +158,7 @@ TEST_CASE("a planar mesh is the water's outline: not drawn, its ids kept", "[bui
   REQUIRE(out.geometry.drawables.size() == 2);
   CHECK_FALSE(out.geometry.drawables[0].drawn);
   CHECK(out.geometry.drawables[1].first_triangle == 2);
-  CHECK(out.geometry.chunks.size() == 1);
+  CHECK(out.geometry.meshlets.size() == 1);
   REQUIRE(out.waters.size() == 1);
   CHECK(outline_area(out.waters[0]) == Approx(4));
   CHECK(out.waters[0].depth_m == 2.0f);  // down to the triangle's lowest corner
@@ -274,7 +274,7 @@ TEST_CASE("light: the file's, or a default sun and sky for a lit scene, or none"
 
 TEST_CASE("the ambient light from above is the sky's mean under the cosine", "[build][light]") {
   const Lighting light = build_render_scene(triangle_scene(kIdentity4)).lighting;
-  // The gradient of raster/sky.h, integrated in double.
+  // The gradient of shading/sky.h, integrated in double.
   const Background& b = light.background;
   double sum = 0;
   constexpr int kSteps = 20000;

@@ -12,10 +12,10 @@
 
 #include "core/error.h"
 #include "core/thread_pool.h"
-#include "raster/environment_sample.h"
-#include "scene/environment.h"
-#include "scene/gltf.h"
-#include "scene/images.h"
+#include "shading/environment/sample.h"
+#include "scene/images/environment.h"
+#include "scene/gltf/gltf.h"
+#include "scene/images/images.h"
 
 using namespace shoal;
 namespace fs = std::filesystem;

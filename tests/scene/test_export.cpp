@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "core/error.h"
-#include "scene/export_glb.h"
-#include "scene/gltf.h"
+#include "scene/gltf/export_glb.h"
+#include "scene/gltf/gltf.h"
 #include "tests/scene/bad_files.h"
 
 namespace shoal::test {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "tests/scene/bad_files.h"
 
 namespace shoal::test {

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "scene/images.h"
+#include "scene/images/images.h"
 #include "tests/scene/bad_files.h"
 
 namespace shoal::test {

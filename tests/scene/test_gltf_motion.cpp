@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "core/error.h"
-#include "scene/export_glb.h"
-#include "scene/gltf.h"
+#include "scene/gltf/export_glb.h"
+#include "scene/gltf/gltf.h"
 #include "tests/scene/bad_files.h"
 
 namespace shoal::test {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "scene/gltf.h"
-#include "scene/images.h"
+#include "scene/gltf/gltf.h"
+#include "scene/images/images.h"
 
 namespace shoal::test {
 namespace {

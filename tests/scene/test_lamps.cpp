@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "tests/scene/bad_files.h"
 
 namespace shoal::test {

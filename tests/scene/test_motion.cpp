@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/thread_pool.h"
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "tests/scene/motion_oracle.h"
 
 namespace shoal::test {
@@ -89,13 +89,13 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 bool same_geometry(const Geometry& a, const Geometry& b) {
-  bool chunks = a.chunks.size() == b.chunks.size();
-  for (std::size_t c = 0; chunks && c < a.chunks.size(); ++c) {
-    const Chunk &x = a.chunks[c], &y = b.chunks[c];
-    chunks = std::memcmp(&x.bounds_min_world, &y.bounds_min_world, 12) == 0 &&
+  bool meshlets = a.meshlets.size() == b.meshlets.size();
+  for (std::size_t c = 0; meshlets && c < a.meshlets.size(); ++c) {
+    const Meshlet &x = a.meshlets[c], &y = b.meshlets[c];
+    meshlets = std::memcmp(&x.bounds_min_world, &y.bounds_min_world, 12) == 0 &&
              std::memcmp(&x.bounds_max_world, &y.bounds_max_world, 12) == 0 && x.longest_edge_m == y.longest_edge_m;
   }
-  return chunks && same_bytes(a.vertices, b.vertices) && same_bytes(a.x_world, b.x_world) &&
+  return meshlets && same_bytes(a.vertices, b.vertices) && same_bytes(a.x_world, b.x_world) &&
          same_bytes(a.y_world, b.y_world) && same_bytes(a.z_world, b.z_world) && same_bytes(a.triangles, b.triangles) &&
          a.corner0 == b.corner0 && a.corner1 == b.corner1 && a.corner2 == b.corner2;
 }
@@ -161,9 +161,9 @@ TEST_CASE("motion: a mirrored moment keeps the front in front", "[motion]") {
     update_render_scene(render, t);
     CHECK(drawn_front(render.geometry, 0).z > 0);
     CHECK(render.geometry.vertices[0].normal_world.z == 1);
-    const Chunk& chunk = render.geometry.chunks[0];
+    const Meshlet& meshlet = render.geometry.meshlets[0];
     const auto corner = [&](const std::vector<std::uint8_t>& c) {
-      return render.geometry.vertices[chunk.first_vertex + c[chunk.first_index]].position_world;
+      return render.geometry.vertices[meshlet.first_vertex + c[meshlet.first_index]].position_world;
     };
     const Vec3f a = corner(render.geometry.corner0), b = corner(render.geometry.corner1),
                 c = corner(render.geometry.corner2);

@@ -1,5 +1,5 @@
 // Generated tangents: against analytic surfaces, mirrored texture seams, degenerate coordinates; placed by transforms.
-#include "scene/tangents.h"
+#include "scene/build/tangents.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

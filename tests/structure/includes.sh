@@ -37,7 +37,7 @@ while read -r file header kind; do
   else
     case $file:$header in
       core/wide/*:immintrin.h | core/wide/*:arm_neon.h) ;;
-      refraction/trace/embree_queries.cpp:embree3/rtcore.h) ;;
+      trace/embree_queries.cpp:embree3/rtcore.h) ;;
       core/float_mode.cpp:immintrin.h | core/float_mode.cpp:xmmintrin.h) ;;
       core/digest.cpp:xxhash.h | core/thread_pool.cpp:sched.h) ;;
       *:*mmintrin.h | *:immintrin.h | *:arm_neon.h) complain "$file: includes <$header>; intrinsics belong in core/wide" ;;

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "scene/export_glb_file.h"
-#include "scene/images.h"
+#include "scene/gltf/export_glb_file.h"
+#include "scene/images/images.h"
 #include "tests/tools/sheet_font.h"
 
 namespace {

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "raster/texture.h"
-#include "scene/images.h"
+#include "shading/textures/texture.h"
+#include "scene/images/images.h"
 
 namespace {
 

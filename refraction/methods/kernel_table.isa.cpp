@@ -1,0 +1,31 @@
+// One ISA's part of the registry: methods.def in this ISA's namespace.
+#include "refraction/methods/kernel_table.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+#define SHOAL_METHOD(name) Method name();
+#if defined(SHOAL_HAS_RAY_TRACER)
+#define SHOAL_TRACED_METHOD(name) SHOAL_METHOD(name)
+#else
+#define SHOAL_TRACED_METHOD(name)
+#endif
+#include "refraction/methods/methods.def"
+#undef SHOAL_METHOD
+
+FrameKernels make_frame_kernels();
+
+}  // namespace shoal::inline SHOAL_ISA_NS
+
+namespace shoal {
+
+const KernelTable& SHOAL_PASTE(kernel_table_, SHOAL_ISA_NS)() {
+  static const Method methods[] = {
+#define SHOAL_METHOD(name) name(),
+#include "refraction/methods/methods.def"
+#undef SHOAL_METHOD
+  };
+  static const KernelTable table{make_frame_kernels(), methods, sizeof methods / sizeof methods[0]};
+  return table;
+}
+
+}  // namespace shoal

@@ -1,0 +1,140 @@
+// Vertex programs of the water passes: refracted and mirrored.
+#pragma once
+
+#include "raster/cull.h"
+#include "raster/front_end.h"
+#include "refraction/broad/broad_phase.h"
+#include "refraction/frame_data.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+// Smallest and greatest signed distance of a box from a plane.
+struct BoxRange {
+  float lo, hi;
+};
+SHOAL_INLINE BoxRange box_range(const Plane& plane, Vec3f lo, Vec3f hi) {
+  const Vec3f n = plane.normal_world;
+  const Vec3f near_corner{n.x > 0 ? lo.x : hi.x, n.y > 0 ? lo.y : hi.y, n.z > 0 ? lo.z : hi.z};
+  const Vec3f far_corner{n.x > 0 ? hi.x : lo.x, n.y > 0 ? hi.y : lo.y, n.z > 0 ? hi.z : lo.z};
+  return {plane_distance(plane, near_corner), plane_distance(plane, far_corner)};
+}
+
+// Straight through: the direct pass.
+struct DirectProgram {
+  static constexpr bool kWarped = false;
+  const View& view;
+  const Frustum& frustum;
+
+  template <class F>
+  SHOAL_INLINE ClipVertex<F> vertex(Vec3<F> position_world) const {
+    return project(view, position_world);
+  }
+  SHOAL_INLINE bool meshlet_outside(const Meshlet& meshlet) const {
+    return box_outside(frustum, meshlet.bounds_min_world, meshlet.bounds_max_world);
+  }
+};
+
+// What both water passes share: the world plane that geometry is clipped at. Decided per point by the same expression
+// as the clipper's, so a triangle that counts as inside is never cut.
+struct ClippedByWater {
+  static constexpr bool kWarped = true;
+  const WaterPass& water;
+  const View& view;
+
+  SHOAL_INLINE Plane clip_plane() const { return water.keep; }
+  SHOAL_INLINE WideM inside(Vec3<WideF> p) const {
+    return dot(broadcast<WideF>(water.keep.normal_world), p) + WideF(water.keep.offset_m) >= WideF(0.0f);
+  }
+  SHOAL_INLINE bool meshlet_inside(const Meshlet& meshlet) const {
+    const BoxRange range = box_range(water.keep, meshlet.bounds_min_world, meshlet.bounds_max_world);
+    return range.lo > 1e-5f * (abs(range.hi) + abs(water.keep.offset_m));
+  }
+  SHOAL_INLINE bool all_clipped(Vec3f lo, Vec3f hi) const {
+    const BoxRange range = box_range(water.keep, lo, hi);
+    return range.hi < -1e-5f * (abs(range.lo) + abs(water.keep.offset_m));
+  }
+};
+
+// The broad phase as a vertex program: every vertex at its virtual position, edges split until they are straight to
+// kEdgeThresholdPx.
+struct RefractedProgram : ClippedByWater {
+  // Out of line: the front end asks for vertices in several places, and the solver is long.
+  __attribute__((noinline)) ClipVertex<WideF> vertex(Vec3<WideF> position_world) const {
+    return project(view, virtual_position(water.map, position_world));
+  }
+  SHOAL_INLINE bool box_outside_view(Vec3f lo, Vec3f hi) const {
+    Vec3f virtual_lo, virtual_hi;
+    virtual_bounds(water.map, lo, hi, virtual_lo, virtual_hi);
+    return box_outside(water.frustum, virtual_lo, virtual_hi);
+  }
+  bool meshlet_outside(const Meshlet& meshlet) const {
+    return all_clipped(meshlet.bounds_min_world, meshlet.bounds_max_world) ||
+           box_outside_view(meshlet.bounds_min_world, meshlet.bounds_max_world);
+  }
+  bool meshlet_bends(const Meshlet& meshlet) const {
+    return meshlet_deviation_bound_px(water.map, view, meshlet.bounds_min_world, meshlet.bounds_max_world,
+                                    meshlet.longest_edge_m) > kEdgeThresholdPx;
+  }
+  __attribute__((noinline)) WideM edge_bends(Vec3<WideF> a, Vec3<WideF> b) const {
+    return edge_deviation_px(water.map, view, a, b) > WideF(kEdgeThresholdPx);
+  }
+};
+
+// A method's own map in place of the broad phase.
+//
+//   Map  template <class F> Vec3<F> position(Vec3<F> world) const;     where a world position is drawn
+//        void bounds(Vec3f lo, Vec3f hi, Vec3f& out_lo, Vec3f& out_hi) const;   of a world box's images
+// Edges are split where the exact map (WaterPass::optics) would have them split, or nowhere.
+template <class Map>
+struct MappedProgram : ClippedByWater {
+  const Map& map;
+  bool splits;
+
+  __attribute__((noinline)) ClipVertex<WideF> vertex(Vec3<WideF> position_world) const {
+    return project(view, map.position(position_world));
+  }
+  SHOAL_INLINE bool box_outside_view(Vec3f lo, Vec3f hi) const {
+    Vec3f image_lo, image_hi;
+    map.bounds(lo, hi, image_lo, image_hi);
+    return box_outside(water.frustum, image_lo, image_hi);
+  }
+  bool meshlet_outside(const Meshlet& meshlet) const {
+    return all_clipped(meshlet.bounds_min_world, meshlet.bounds_max_world) ||
+           box_outside_view(meshlet.bounds_min_world, meshlet.bounds_max_world);
+  }
+  bool meshlet_bends(const Meshlet& meshlet) const {
+    return splits && meshlet_deviation_bound_px(water.optics, view, meshlet.bounds_min_world, meshlet.bounds_max_world,
+                                              meshlet.longest_edge_m) > kEdgeThresholdPx;
+  }
+  __attribute__((noinline)) WideM edge_bends(Vec3<WideF> a, Vec3<WideF> b) const {
+    if (!splits) return mask_from_bits(0);
+    return edge_deviation_px(water.optics, view, a, b) > WideF(kEdgeThresholdPx);
+  }
+};
+
+// The scene mirrored in the plane, for the eye under water (total internal reflection).
+struct MirroredProgram : ClippedByWater {
+  template <class F>
+  SHOAL_INLINE ClipVertex<F> vertex(Vec3<F> position_world) const {
+    return project(view, mirrored_position(water.optics, position_world));
+  }
+  SHOAL_INLINE bool box_outside_view(Vec3f lo, Vec3f hi) const {
+    const Vec3f centre = mirrored_position(water.optics, (lo + hi) * 0.5f), half = (hi - lo) * 0.5f,
+                n = water.optics.normal;
+    // Rows of I - 2 n n^T, absolute.
+    auto reach = [&](float a, float b, float c) { return abs(a) * half.x + abs(b) * half.y + abs(c) * half.z; };
+    const Vec3f extent{reach(1.0f - 2.0f * n.x * n.x, 2.0f * n.x * n.y, 2.0f * n.x * n.z),
+                       reach(2.0f * n.y * n.x, 1.0f - 2.0f * n.y * n.y, 2.0f * n.y * n.z),
+                       reach(2.0f * n.z * n.x, 2.0f * n.z * n.y, 1.0f - 2.0f * n.z * n.z)};
+    const float pad = 1e-5f * (length(centre) + length(half));
+    return box_outside(water.frustum, centre - extent - Vec3f{pad, pad, pad}, centre + extent + Vec3f{pad, pad, pad});
+  }
+  bool meshlet_outside(const Meshlet& meshlet) const {
+    return all_clipped(meshlet.bounds_min_world, meshlet.bounds_max_world) ||
+           box_outside_view(meshlet.bounds_min_world, meshlet.bounds_max_world);
+  }
+  SHOAL_INLINE bool meshlet_bends(const Meshlet&) const { return false; }
+  SHOAL_INLINE WideM edge_bends(Vec3<WideF>, Vec3<WideF>) const { return mask_from_bits(0); }
+};
+
+}  // namespace shoal::inline SHOAL_ISA_NS

@@ -1,0 +1,74 @@
+// Shared by the files that make a RenderScene and move it: transforms of vectors, and what each node's parts become.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+#include "scene/scene.h"
+
+namespace shoal::building {
+
+[[noreturn]] inline void fail(const Scene& scene, const Node& node, const std::string& what) {
+  throw Error(scene.name + ": node '" + node.name + "': " + what);
+}
+
+inline bool is_finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// Unit vector, or zero where there is no direction. Scaled by the largest component first: squares neither overflow nor
+// vanish.
+inline Vec3f normalize_or_zero(Vec3f v) {
+  const float largest = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+  if (!(largest > 0) || !std::isfinite(largest)) return {0, 0, 0};
+  const Vec3f s = v / largest;
+  return s / std::sqrt(dot(s, s));
+}
+inline bool is_zero(Vec3f v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
+inline Vec3f column(const Mat4& t, int c) { return {t.m[0][c], t.m[1][c], t.m[2][c]}; }
+
+inline float determinant(const Mat4& t) { return dot(column(t, 0), cross(column(t, 1), column(t, 2))); }
+
+// The inverse transpose up to a positive factor: the matrix of cofactors, times the determinant's sign.
+struct NormalMatrix {
+  Vec3f columns[3];
+
+  explicit NormalMatrix(const Mat4& t) {
+    const Vec3f a = normalize_scale(t, 0), b = normalize_scale(t, 1), c = normalize_scale(t, 2);
+    const float sign = determinant(t) < 0 ? -1.0f : 1.0f;
+    columns[0] = cross(b, c) * sign;
+    columns[1] = cross(c, a) * sign;
+    columns[2] = cross(a, b) * sign;
+  }
+  Vec3f apply(Vec3f n) const {
+    const Vec3f w = normalize_or_zero(columns[0] * n.x + columns[1] * n.y + columns[2] * n.z);
+    return is_zero(w) ? Vec3f{0, 1, 0} : w;
+  }
+
+ private:
+  // One common factor for all columns keeps the products of tiny or huge scales in range.
+  static Vec3f normalize_scale(const Mat4& t, int c) {
+    float largest = 0;
+    for (int row = 0; row < 3; ++row) {
+      for (int col = 0; col < 3; ++col) largest = std::max(largest, std::fabs(t.m[row][col]));
+    }
+    return largest > 0 ? column(t, c) / largest : Vec3f{0, 0, 0};
+  }
+};
+
+inline bool is_outline(const Scene& scene, const Node& node) {
+  return node.water != kNoIndex && !scene.waters[static_cast<std::size_t>(node.water)].has_size;
+}
+
+inline const Mesh* mesh_of(const Scene& scene, const Node& node) {
+  return node.mesh == kNoIndex ? nullptr : &scene.meshes[static_cast<std::size_t>(node.mesh)];
+}
+
+// scene/build/build.cpp. Of nodes where they are now; each throws Error where the node's transform degenerates.
+//   geometry  what the depth of a body without one reaches down to; null: the body's depth is left 0 then
+WaterBody place_water(const Scene& scene, std::size_t node_index, const Geometry* geometry);
+PlacedCamera place_camera(const Scene& scene, const Node& node, std::size_t node_index);
+Lighting make_lighting(const Scene& scene);
+
+}  // namespace shoal::building

@@ -1,0 +1,113 @@
+// Vertices of a primitive in world space under a pose: morphed, then skinned or placed by their node.
+#pragma once
+
+#include <vector>
+
+#include "scene/build/animate.h"
+#include "scene/build/building.h"
+#include "scene/build/tangents.h"
+
+namespace shoal::building {
+
+// Joint matrices of a skin, mesh to world: one product in double a joint, rounded to float once.
+inline std::vector<Mat4> joint_matrices(const Skin& skin, const Pose& pose) {
+  std::vector<Mat4> joints;
+  joints.reserve(skin.joints.size());
+  for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+    const Affine& world = pose.world_from_local[static_cast<std::size_t>(skin.joints[j])];
+    joints.push_back(narrow(product(world, widen(skin.joint_from_mesh[j]))));
+  }
+  return joints;
+}
+
+inline bool is_skinned(const Node& node, const MeshPrimitive& mesh) {
+  return node.skin != kNoIndex && mesh.influences != 0;
+}
+
+// One primitive of one node, ready to be asked for vertices from any thread. Sums run in the file's order of targets
+// and joints, in float.
+// Source: glTF 2.0 specification, 3.7.2.2 (morph targets), 3.7.3 (skins: the node's own transform is ignored).
+// Differs: the winding of a skinned mesh is that of its first joint's matrix.
+// Error: 4e-6 of the extent of the mesh, against double (tests/scene/test_motion.cpp).
+class Deformer {
+ public:
+  //   pose  of the scene's nodes; it and the mesh must outlive the deformer
+  Deformer(const Scene& scene, const Pose& pose, std::size_t node_index, const MeshPrimitive& mesh)
+      : mesh_(mesh),
+        weights_(pose.morph_weights[node_index]),
+        world_(narrow(pose.world_from_local[node_index])),
+        normal_matrix_(world_) {
+    const Node& node = scene.nodes[node_index];
+    if (is_skinned(node, mesh)) joints_ = joint_matrices(scene.skins[static_cast<std::size_t>(node.skin)], pose);
+    morphs_ = std::min(mesh.targets.size(), weights_.size());
+    deforms_ = !joints_.empty() || morphs_ != 0;
+  }
+
+  // True where front faces would turn to the back.
+  bool mirrored() const { return determinant(joints_.empty() ? world_ : joints_.front()) < 0; }
+
+  Vec3f position(std::size_t v) const {
+    if (!deforms_) return transform_point(world_, mesh_.positions[v]);
+    const Vec3f p = morphed_position(v);
+    return joints_.empty() ? transform_point(world_, p) : transform_point(blended(v), p);
+  }
+
+  // Unit.
+  Vec3f normal(std::size_t v) const {
+    if (!deforms_) return normal_matrix_.apply(mesh_.normals[v]);
+    if (mesh_.flat_normals) return flat_normal(v / 3 * 3);
+    const Vec3f n = morphed_normal(v);
+    return joints_.empty() ? normal_matrix_.apply(n) : NormalMatrix(blended(v)).apply(n);
+  }
+
+  bool has_tangents() const { return !mesh_.tangents.empty(); }
+  // Of a mesh with tangents. Targets do not bend them.
+  Vec4f tangent(std::size_t v) const { return place_tangent(joints_.empty() ? world_ : blended(v), mesh_.tangents[v]); }
+
+ private:
+  Vec3f morphed_position(std::size_t v) const {
+    Vec3f p = mesh_.positions[v];
+    for (std::size_t t = 0; t < morphs_; ++t) {
+      if (weights_[t] != 0 && !mesh_.targets[t].positions.empty()) p = p + mesh_.targets[t].positions[v] * weights_[t];
+    }
+    return p;
+  }
+  Vec3f morphed_normal(std::size_t v) const {
+    Vec3f n = mesh_.normals[v];
+    for (std::size_t t = 0; t < morphs_; ++t) {
+      if (weights_[t] != 0 && !mesh_.targets[t].normals.empty()) n = n + mesh_.targets[t].normals[v] * weights_[t];
+    }
+    return n;
+  }
+  // The weighted sum of the vertex's joint matrices.
+  Mat4 blended(std::size_t v) const {
+    Mat4 sum = {{{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 1}}};
+    const std::size_t first = v * mesh_.influences;
+    for (std::size_t k = first; k < first + mesh_.influences; ++k) {
+      const float weight = mesh_.weights[k];
+      if (weight == 0) continue;
+      const Mat4& joint = joints_[mesh_.joints[k]];
+      for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 4; ++c) sum.m[r][c] = sum.m[r][c] + joint.m[r][c] * weight;
+      }
+    }
+    return sum;
+  }
+  // Of the triangle whose corners are three vertices from `first` on, on its front.
+  Vec3f flat_normal(std::size_t first) const {
+    const Vec3f a = position(first), b = position(first + 1), c = position(first + 2);
+    const Vec3f n = normalize_or_zero(cross(normalize_or_zero(b - a), normalize_or_zero(c - a)));
+    if (is_zero(n)) return {0, 1, 0};
+    return mirrored() ? -n : n;
+  }
+
+  const MeshPrimitive& mesh_;
+  const std::vector<float>& weights_;
+  std::vector<Mat4> joints_;  // empty: the node places the mesh
+  Mat4 world_;
+  NormalMatrix normal_matrix_;
+  std::size_t morphs_ = 0;
+  bool deforms_ = false;
+};
+
+}  // namespace shoal::building

@@ -1,0 +1,73 @@
+// What a ray sees that leaves the scene: one colour, a clear-day sky, or a picture of the surroundings.
+//
+// The sky is a picture, not a model of scattering: a gradient from horizon to zenith that whitens towards the horizon,
+// where a calm water surface reflects the most of it, ground below, a sun disc and three widths of glow. It has no
+// powers but repeated squares, so that it costs a few cycles a pixel.
+#pragma once
+
+#include "core/vec_lanes.h"
+#include "shading/environment/sample.h"
+#include "shading/material.h"
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+namespace sky_detail {
+// 0 at 0 and below, 1 at 1 and above, level at both ends.
+template <class F>
+SHOAL_INLINE F smooth(F t) {
+  const F c = min(max(t, F(0.0f)), F(1.0f));
+  return c * c * (F(3.0f) - (c + c));
+}
+// 1 above the horizon, 0 from 3 degrees below it on.
+template <class F>
+SHOAL_INLINE F above_horizon(F y) {
+  return smooth(F(1.0f) + y * F(20.0f));
+}
+}  // namespace sky_detail
+
+// The sky without its sun, the colour or the picture: what rough surfaces reflect (the sun reaches them as a light of
+// its own).
+//   direction_world  unit, away from the scene; +y is up
+// Returns linear radiance, continuous in the direction.
+template <class F>
+SHOAL_INLINE Vec3<F> background_gradient(const Background& background, Vec3<F> direction_world) {
+  if (background.kind == Background::Kind::kColor) return broadcast<F>(background.color);
+  if (background.kind == Background::Kind::kEnvironment) {
+    Vec3<F> seen;
+    environment_radiance<F>(*background.environment, direction_world, seen);
+    return seen;
+  }
+  const F y = min(max(direction_world.y, F(-1.0f)), F(1.0f));
+  const F down = F(1.0f) - max(y, F(0.0f));
+  const F down2 = down * down, down4 = down2 * down2, down16 = (down4 * down4) * (down4 * down4);
+  // The air mass grows slowly at first, then steeply in the last degrees: (1 - y)^3, and a band of haze of (1 - y)^16.
+  const Vec3f step = background.horizon - background.zenith;
+  const F low = F(0.8f) * (down2 * down) + F(0.2f) * down16;
+  const Vec3<F> clear = broadcast<F>(background.zenith) + broadcast<F>(step) * low;
+  return lerp(broadcast<F>(background.ground), clear, sky_detail::above_horizon(y));
+}
+
+// Everything: gradient, and the sun's disc and glow where there is a sun.
+//   direction_world  unit, away from the scene
+// Returns linear radiance, not negative where the background's colours are not.
+template <class F>
+SHOAL_INLINE Vec3<F> background_radiance(const Background& background, Vec3<F> direction_world) {
+  const Vec3<F> sky = background_gradient<F>(background, direction_world);
+  const Vec3f s = background.sun;
+  if (background.kind != Background::Kind::kSky || (s.x == 0.0f && s.y == 0.0f && s.z == 0.0f)) return sky;
+
+  // Squared chord to the sun, 2 - 2 cos: exact enough near the disc, where the cosine itself is not.
+  const Vec3<F> offset = direction_world - broadcast<F>(background.to_sun_world);
+  const F chord2 = dot(offset, offset);
+  const F cosine = min(max(F(1.0f) - F(0.5f) * chord2, F(0.0f)), F(1.0f));
+  const F c2 = cosine * cosine, c4 = c2 * c2, c8 = c4 * c4;
+  const F c16 = c8 * c8, c32 = c16 * c16, c64 = c32 * c32;
+  const F c128 = c64 * c64, c256 = c128 * c128, c512 = c256 * c256, c2048 = (c512 * c512) * (c512 * c512);
+  const F glow = (F(0.004f) * c8 + F(0.010f) * c64) + (F(0.03f) * c512 + F(0.08f) * c2048);
+  // The disc: 0.2665 degrees of radius, its edge softened over a third more.
+  constexpr float kRadius2 = 0.004651f * 0.004651f;
+  const F disc = sky_detail::smooth(F(2.3f) - chord2 * F(1.3f / kRadius2));
+  return sky + broadcast<F>(s) * ((glow + disc) * sky_detail::above_horizon(direction_world.y));
+}
+
+}  // namespace shoal::inline SHOAL_ISA_NS

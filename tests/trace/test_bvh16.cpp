@@ -1,0 +1,225 @@
+// The narrow phase's tree over the scene's triangles against all of them in double, and the edges of a layer against
+// pictures whose edges are known.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "raster/geometry_view.h"
+#include "refraction/narrow/layer_edges.h"
+#include "trace/nearest_hit.h"
+#include "refraction_oracle.h"
+
+using namespace shoal_test;
+
+namespace {
+
+// Triangles of all sizes in a box, every third one seen from its front alone, in the scene's order.
+struct Soup {
+  Geometry geometry;
+  Materials materials;
+  std::mt19937 random{11};
+
+  float draw() { return static_cast<float>(random() >> 8) * 0x1p-23f - 1.0f; }
+  Vec3f point(float size) { return Vec3f{draw(), draw(), draw()} * size; }
+
+  explicit Soup(int count) {
+    materials.materials.resize(2);
+    materials.materials[0].double_sided = true;
+    materials.materials[1].double_sided = false;
+    for (int first = 0; first < count; first += 100) {
+      std::vector<Vec3f> positions, normals;
+      std::vector<std::uint32_t> indices;
+      const Vec3f at = point(10.0f);
+      for (int k = first; k < std::min(first + 100, count); ++k) {
+        const Vec3f corner = at + point(2.0f);
+        const float size = k % 7 == 0 ? 3.0f : 0.3f;
+        positions.insert(positions.end(), {corner, corner + point(size), corner + point(size)});
+      }
+      for (std::uint32_t i = 0; i < positions.size(); ++i) indices.push_back(i), normals.push_back({0, 1, 0});
+      MeshView mesh;
+      mesh.positions_world = positions.data(), mesh.normals_world = normals.data(), mesh.indices = indices.data();
+      mesh.vertex_count = mesh.index_count = static_cast<std::uint32_t>(indices.size());
+      mesh.material = first / 100 % 3 == 2 ? 1 : 0;
+      append_mesh(geometry, mesh);
+    }
+  }
+};
+
+struct Oracle {
+  double t = 1e300, second = 1e300;
+  std::int32_t id = kNoId;
+  bool at_edge = false;  // the nearest, or something nearer, is met or missed by less than 1e-4 of a triangle's side
+};
+
+Oracle all_triangles(const Soup& soup, Vec3f origin, Vec3f direction) {
+  Oracle best;
+  double edge_t = 1e300;
+  const Vec3d o = as_double(origin), d = as_double(direction);
+  for (std::size_t i = 0; i < soup.geometry.triangles.size(); ++i) {
+    const Geometry::TriangleRecord& r = soup.geometry.triangles[i];
+    const auto corner = [&](int k) { return as_double(soup.geometry.vertices[r.vertex[k]].position_world); };
+    const Vec3d a = corner(0), e1 = corner(1) - a, e2 = corner(2) - a, n = cross(e1, e2);
+    const double nn = dot(n, n), along = dot(d, n);
+    if (nn == 0 || along == 0) continue;
+    if (!soup.materials.materials[r.material].double_sided && along > 0) continue;
+    const double t = dot(a - o, n) / along;
+    const Vec3d p = o + d * t - a;
+    const double u = dot(cross(p, e2), n) / nn, v = dot(cross(e1, p), n) / nn;
+    const double inside = std::min(std::min(u, v), 1 - u - v);
+    if (t <= 0 || inside < -1e-4) continue;
+    if (inside < 1e-4 || std::fabs(along) < 1e-3 * std::sqrt(nn) || t < 1e-3) edge_t = std::min(edge_t, t);
+    if (inside < 0) continue;
+    if (t < best.t)
+      best.second = best.t, best.t = t, best.id = static_cast<std::int32_t>(i);
+    else
+      best.second = std::min(best.second, t);
+  }
+  best.at_edge = edge_t < std::min(best.t * 1.001, 1e299) || (best.id != kNoId && best.second < best.t * 1.0001);
+  return best;
+}
+
+// How many of the rays had one clear answer; each of those is checked. Packets of rays anywhere and, every other one,
+// of rays from about one place that spread a little or more: those go as one beam.
+int check_rays(Soup& soup, const FrameData& f, int packets) {
+  int clear = 0;
+  for (int packet = 0; packet < packets; ++packet) {
+    alignas(64) float value[6][16];
+    const Vec3f from = soup.point(12.0f), to = soup.point(10.0f);
+    const float spread = packet % 4 == 1 ? 0.01f : 0.5f;
+    for (int lane = 0; lane < 16; ++lane) {
+      Vec3f origin = soup.point(12.0f), towards = soup.point(10.0f) - origin;
+      // Some along an axis: directions with zeros.
+      if (lane == 3) towards = {0, -1, 0};
+      if (lane == 9) towards = {1, 0, 0};
+      if (packet % 2 == 1) origin = from + soup.point(spread), towards = to + soup.point(4.0f * spread) - from;
+      const Vec3f direction = normalize(towards);
+      const float all[6] = {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z};
+      for (int k = 0; k < 6; ++k) value[k][lane] = all[k];
+    }
+    const auto vector = [&](int k) {
+      return Vec3<WideF>{WideF::load(value[k]), WideF::load(value[k + 1]), WideF::load(value[k + 2])};
+    };
+    const Ray<WideF> ray = {vector(0), vector(3)};
+    const WideM lanes = mask_from_bits(packet % 2 == 0 ? 0xFFFFu : 0xBEEFu);
+    alignas(64) std::int32_t id[16], known[16];
+    nearest_hits(f, ray, {}, {}, lanes).id.store(id);
+    alignas(64) float near_t[16];
+    for (int lane = 0; lane < 16; ++lane) {
+      if ((to_bits(lanes) >> lane & 1u) == 0) continue;
+      const Oracle o = all_triangles(soup, {value[0][lane], value[1][lane], value[2][lane]},
+                                     {value[3][lane], value[4][lane], value[5][lane]});
+      near_t[lane] = o.id == kNoId ? 1.0f : static_cast<float>(o.t * 0.99);
+      if (o.at_edge) continue;
+      INFO("lane " << lane << ", t " << o.t << " and " << o.second);
+      REQUIRE(id[lane] == o.id);
+      ++clear;
+    }
+    // Nothing is nearer than a little before the nearest: what is known stays.
+    for (int lane = 0; lane < 16; ++lane)
+      if ((to_bits(lanes) >> lane & 1u) == 0) near_t[lane] = 1.0f;
+    nearest_hits(f, ray, {}, {WideI(-5), WideF::load(near_t)}, lanes).id.store(known);
+    for (int lane = 0; lane < 16; ++lane)
+      if ((to_bits(lanes) >> lane & 1u) != 0 && id[lane] != kNoId) CHECK(known[lane] == -5);
+  }
+  return clear;
+}
+
+void fill(VisibilityBuffer& layer, float (*depth_at)(int x, int y)) {
+  for (int y = 0; y < layer.grid.height_px; ++y)
+    for (int x = 0; x < layer.grid.width_px; ++x) layer.depth[layer.grid.slot(x, y)] = depth_at(x, y);
+}
+
+}  // namespace
+
+TEST_CASE("triangle tree: the nearest of all triangles", "[refraction]") {
+  for (const int count : {1, 16, 17, 300, 5000, 20000}) {
+    Soup soup(count);
+    FrameData f;
+    f.geometry = view_of(soup.geometry, soup.materials);
+    f.tree = std::make_unique<Bvh16>();
+    ThreadPool pool(count == 300 ? 1 : 2);
+    f.tree->build(soup.geometry, soup.materials, count != 300, pool);
+    INFO(count << " triangles");
+    REQUIRE(check_rays(soup, f, 40) > 400);
+    // After everything has moved, by the same boxes' tree.
+    for (VertexRecord& v : soup.geometry.vertices)
+      v.position_world = Vec3f{v.position_world.y, v.position_world.z * 1.5f, -v.position_world.x};
+    f.tree->refit(soup.geometry, pool);
+    REQUIRE(check_rays(soup, f, 40) > 400);
+  }
+}
+
+TEST_CASE("triangle tree: a bounded depth, however triangles lie", "[refraction]") {
+  // Each a third of the way of the one before from a corner: halving by place takes off a few at a time.
+  Soup soup(3000);
+  float size = 1e18f;
+  for (VertexRecord& v : soup.geometry.vertices) {
+    v.position_world = v.position_world * (size * 1e-2f);
+    size = size < 1e-36f ? 1e18f : size * 0.93f;
+  }
+  ThreadPool pool(2);
+  Bvh16 tree;
+  tree.build(soup.geometry, soup.materials, false, pool);
+  std::vector<int> height(tree.nodes.size(), 1);
+  std::size_t triangles = 0;
+  for (std::size_t n = 0; n < tree.nodes.size(); ++n)
+    for (const std::int32_t child : tree.nodes[n].child) {
+      if (child == Bvh16::kNone) continue;
+      if (child < 0)
+        triangles += static_cast<std::size_t>(__builtin_popcount(tree.kinds[static_cast<std::size_t>(~child)].there));
+      else
+        height[n] = std::max(height[n], height[static_cast<std::size_t>(child)] + 1);
+    }
+  CHECK(triangles == 3000);
+  CHECK(height.back() > 3);
+  CHECK(height.back() <= Bvh16::kMostLevels);
+}
+
+TEST_CASE("triangle tree: of nothing, and of what is blended", "[refraction]") {
+  Soup soup(200);
+  for (Material& m : soup.materials.materials) m.alpha_mode = AlphaMode::kBlend;
+  FrameData f;
+  f.geometry = view_of(soup.geometry, soup.materials);
+  f.tree = std::make_unique<Bvh16>();
+  ThreadPool pool(1);
+  f.tree->build(soup.geometry, soup.materials, true, pool);
+  const Ray<WideF> ray = {broadcast<WideF>(Vec3f{0, 0, 20}), broadcast<WideF>(Vec3f{0, 0, -1})};
+  alignas(64) std::int32_t id[16];
+  nearest_hits(f, ray, {}, {}, mask_from_bits(0xFFFFu)).id.store(id);
+  for (const std::int32_t one : id) CHECK(one == kNoId);
+}
+
+TEST_CASE("layer edges: planes have none, steps have them a pixel wide on either side", "[refraction]") {
+  VisibilityBuffer layer;
+  layer.resize(make_frame_grid(150, 90));
+  // Is any pixel of the block one for which `expected` holds?
+  const auto check_blocks = [&](auto expected) {
+    int edges = 0;
+    for (int by = 0; by < 22; ++by)
+      for (int bx = 0; bx < 37; ++bx) {
+        bool wanted = false;
+        for (int k = 0; k < 16; ++k) wanted = wanted || expected(4 * bx + k % 4, 4 * by + k / 4);
+        const std::size_t region = static_cast<std::size_t>(by / 16 * layer.grid.regions_x + bx / 16);
+        INFO(bx << ", " << by);
+        REQUIRE(find_edges(layer, region).at(4 * bx, 4 * by) == wanted);
+        edges += wanted;
+      }
+    return edges;
+  };
+  // A steep plane: exactly linear in float. At the layer's border it bends: what is beyond is as there.
+  fill(layer, [](int x, int y) { return 0.25f + static_cast<float>(x) * 0x1p-10f + static_cast<float>(y) * 0x1p-9f; });
+  check_blocks([](int x, int y) { return x == 0 || y == 0 || x == 149 || y == 89; });
+  // A nearer square, across regions, before a far plane and before nothing.
+  static float behind;
+  for (const float far_depth : {0.25f, 0.0f}) {
+    behind = far_depth;
+    fill(layer, [](int x, int y) { return x >= 50 && x < 82 && y >= 20 && y < 70 ? 0.5f : behind; });
+    const int edges = check_blocks([](int x, int y) {
+      const bool near_square = x >= 49 && x <= 82 && y >= 19 && y <= 70;
+      const bool well_inside = x >= 51 && x < 81 && y >= 21 && y < 69;
+      return near_square && !well_inside;
+    });
+    REQUIRE(edges > 20);
+  }
+}

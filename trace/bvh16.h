@@ -1,0 +1,64 @@
+// A tree of boxes over the scene's opaque triangles: what the narrow phase asks (trace/nearest_hit.h).
+//
+// Nodes have sixteen children, leaves sixteen triangles near each other: all boxes of either are tested at once. Which
+// boxes there are decides only what is looked at; what is found does not depend on them.
+//
+// Memory  about 10 bytes a triangle, 60 with corners.
+// Source  Wald, Benthin and Boulos 2008, "Getting rid of packets": nodes as wide as the registers.
+#pragma once
+
+#include <cstdint>
+
+#include "core/pod_vector.h"
+#include "core/thread_pool.h"
+#include "raster/geometry.h"
+#include "shading/material.h"
+
+namespace shoal {
+
+struct Bvh16 {
+  static constexpr int kWidth = 16;
+  static constexpr std::int32_t kNone = 0x7FFFFFFF;
+  static constexpr int kMostLevels = 68;  // of nodes, whatever the scene
+  // Boxes, world, m, by axis; empty places hold an inverted one.
+  struct alignas(64) Boxes {
+    float lo[3][kWidth], hi[3][kWidth];
+  };
+  struct alignas(64) Node {
+    Boxes boxes;
+    std::int32_t child[kWidth];  // a node, ~ a leaf, or kNone
+  };
+  struct alignas(64) Leaf {
+    std::int32_t id[kWidth];  // of the triangles; kNone: an empty place
+  };
+  struct alignas(64) Corners {
+    float p0[3][kWidth], e1[3][kWidth], e2[3][kWidth];  // first corners, world, and the other two less it
+  };
+  struct Kinds {
+    std::uint16_t there, one_sided, alpha_tested;  // a bit a triangle
+  };
+  PodVector<Node> nodes;       // the root last; none: nothing is opaque
+  PodVector<Leaf> leaves;      // near each other as the tree has them
+  PodVector<Kinds> kinds;      // of the leaves
+  PodVector<Corners> corners;  // the same, for scenes that are asked often; else empty, and read from the scene
+
+  // Over all opaque triangles, alpha-tested ones with them.
+  void build(const Geometry& geometry, const Materials& materials, bool with_corners, ThreadPool& pool);
+  // Boxes and corners anew, after vertices have moved.
+  void refit(const Geometry& geometry, ThreadPool& pool);
+};
+
+// Of a leaf's triangles; in empty places those of the first.
+SHOAL_INLINE void find_corners(const Geometry::TriangleRecord* triangles, const VertexRecord* vertices,
+                               const Bvh16::Leaf& leaf, Bvh16::Corners& out) {
+  for (int k = 0; k < Bvh16::kWidth; ++k) {
+    const std::uint32_t* corner = triangles[leaf.id[k] != Bvh16::kNone ? leaf.id[k] : leaf.id[0]].vertex;
+    const Vec3f p0 = vertices[corner[0]].position_world;
+    const Vec3f e1 = vertices[corner[1]].position_world - p0, e2 = vertices[corner[2]].position_world - p0;
+    out.p0[0][k] = p0.x, out.p0[1][k] = p0.y, out.p0[2][k] = p0.z;
+    out.e1[0][k] = e1.x, out.e1[1][k] = e1.y, out.e1[2][k] = e1.z;
+    out.e2[0][k] = e2.x, out.e2[1][k] = e2.y, out.e2[2][k] = e2.z;
+  }
+}
+
+}  // namespace shoal
