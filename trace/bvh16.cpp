@@ -19,7 +19,7 @@ void extend(Box& box, const Box& by) {
   box.hi = {std::max(box.hi.x, by.hi.x), std::max(box.hi.y, by.hi.y), std::max(box.hi.z, by.hi.z)};
 }
 
-// Grown by more than the slack of the triangle test (confirm_hit.h) and the rounding of the box test: both are parts of
+// Grown by more than the slack of the triangle test (raster/triangle_test.h) and the rounding of the box test: both are parts of
 // the coordinates' size.
 Box grown(Box box) {
   const auto grow = [](float& lo, float& hi) {
@@ -80,7 +80,7 @@ struct Bounds {
 };
 
 // A triangle and its box; its id is in the place that does not count.
-struct Item {
+struct Primitive {
   Float4 lo, hi;
   std::int32_t triangle() const { return std::bit_cast<std::int32_t>(float{hi[3]}); }
 };
@@ -88,21 +88,22 @@ struct Item {
 struct Range {
   std::size_t first, count;
 };
-// Halves of a range of work_items, or a leaf.
+// Halves of a range of primitives, or a leaf.
 struct Split {
-  Range work_items;
+  Range primitives;
   float area = 0;
   std::int32_t left = -1, right = -1;  // splits; -1: a leaf
   int leaves = 1;
 };
 
-// Splits work_items by the surface area heuristic, down to leaves: each range where the halves' areas times their counts are
+// Splits primitives by the surface area heuristic, down to leaves: each range where the halves' areas times their counts are
 // least, of sixteen places along each axis.
 // Source: Goldsmith and Salmon 1987; Wald 2007 (bins).
 class Builder {
  public:
-  // Ranges of at most task_size are left to others: they are in `tasks`, as leaves of `splits`.
-  Builder(std::vector<Item>& of, Range range, int level, std::size_t task_size) : work_items(of), least(task_size) {
+  // Ranges of at most max_task_size are not split: they become `tasks`, and leaves of `splits`.
+  Builder(std::vector<Primitive>& of, Range range, int level, std::size_t max_task_size)
+      : primitives(of), task_size(max_task_size) {
     split(range, level);
   }
 
@@ -120,19 +121,19 @@ class Builder {
     const std::int32_t at = static_cast<std::int32_t>(splits.size());
     Bounds bounds, middles;
     for (std::size_t i = range.first; i < range.first + range.count; ++i) {
-      const Item& work_item = work_items[i];
-      bounds.add(work_item.lo, work_item.hi);
-      const Float4 middle = work_item.lo + work_item.hi;
+      const Primitive& primitive = primitives[i];
+      bounds.add(primitive.lo, primitive.hi);
+      const Float4 middle = primitive.lo + primitive.hi;
       middles.add(middle, middle);
     }
     splits.push_back({range, bounds.area()});
     if (range.count <= Bvh16::kWidth) return at;
-    if (range.count <= least) {
+    if (range.count <= task_size) {
       tasks.push_back({at, level});
       return at;
     }
-    // However they lie, there are no more than kMostLevels: halves of 2^31 are leaves after 27.
-    const std::size_t half = level < Bvh16::kMostLevels - 28 ? divide(range, middles) : range.count / 2;
+    // However they lie, there are no more than kMaxLevels: halves of 2^31 are leaves after 27.
+    const std::size_t half = level < Bvh16::kMaxLevels - 28 ? divide(range, middles) : range.count / 2;
     const std::int32_t left = split({range.first, half}, level + 1);
     const std::int32_t right = split({range.first + half, range.count - half}, level + 1);
     splits[static_cast<std::size_t>(at)].left = left, splits[static_cast<std::size_t>(at)].right = right;
@@ -147,15 +148,15 @@ class Builder {
       const float bins = static_cast<float>(kBins) / (middles.hi[a] - middles.lo[a]);
       if (std::isfinite(bins)) per[a] = bins;
     }
-    const auto bins_of = [&](const Item& work_item) {
-      const Float4 at = (work_item.lo + work_item.hi - middles.lo) * per, last = float4(kBins - 1);
+    const auto bins_of = [&](const Primitive& primitive) {
+      const Float4 at = (primitive.lo + primitive.hi - middles.lo) * per, last = float4(kBins - 1);
       return __builtin_convertvector(at < last ? at : last, Int4);
     };
     Bounds bounds[3][kBins];
     std::size_t counts[3][kBins] = {};
     for (std::size_t i = range.first; i < range.first + range.count; ++i) {
-      const Int4 bin = bins_of(work_items[i]);
-      for (int a = 0; a < 3; ++a) bounds[a][bin[a]].add(work_items[i].lo, work_items[i].hi), ++counts[a][bin[a]];
+      const Int4 bin = bins_of(primitives[i]);
+      for (int a = 0; a < 3; ++a) bounds[a][bin[a]].add(primitives[i].lo, primitives[i].hi), ++counts[a][bin[a]];
     }
 
     float best = kEmptyMin;
@@ -177,23 +178,23 @@ class Builder {
       }
     }
     if (best_axis < 0) return range.count / 2;
-    const auto from = work_items.begin() + static_cast<std::ptrdiff_t>(range.first);
+    const auto from = primitives.begin() + static_cast<std::ptrdiff_t>(range.first);
     const auto middle = std::partition(from, from + static_cast<std::ptrdiff_t>(range.count),
-                                       [&](const Item& work_item) { return bins_of(work_item)[best_axis] < best_bin; });
+                                       [&](const Primitive& primitive) { return bins_of(primitive)[best_axis] < best_bin; });
     return static_cast<std::size_t>(middle - from);
   }
 
-  std::vector<Item>& work_items;
-  std::size_t least;
+  std::vector<Primitive>& primitives;
+  std::size_t task_size;
 };
 
 // The same tree for any number of threads.
-std::vector<Split> split_all(std::vector<Item>& work_items, ThreadPool& pool) {
-  Builder top(work_items, {0, work_items.size()}, 0, std::max(work_items.size() / 64, std::size_t{4096}));
+std::vector<Split> split_all(std::vector<Primitive>& primitives, ThreadPool& pool) {
+  Builder top(primitives, {0, primitives.size()}, 0, std::max(primitives.size() / 64, std::size_t{4096}));
   std::vector<std::vector<Split>> parts(top.tasks.size());
   pool.for_each(parts.size(), [&](std::size_t i, int) {
     const Builder::Task& task = top.tasks[i];
-    Builder part(work_items, top.splits[static_cast<std::size_t>(task.split)].work_items, task.level, 0);
+    Builder part(primitives, top.splits[static_cast<std::size_t>(task.split)].primitives, task.level, 0);
     parts[i] = std::move(part.splits);
   });
   std::vector<Split> all = std::move(top.splits);
@@ -214,19 +215,19 @@ std::vector<Split> split_all(std::vector<Item>& work_items, ThreadPool& pool) {
 }
 
 // Boxes of the opaque triangles.
-std::vector<Item> opaque_items(const Geometry& geometry, const Materials& materials, ThreadPool& pool) {
+std::vector<Primitive> opaque_primitives(const Geometry& geometry, const Materials& materials, ThreadPool& pool) {
   std::vector<std::int32_t> triangles;
   for (const Meshlet& meshlet : geometry.meshlets)
     if (materials.materials[meshlet.material].alpha_mode != AlphaMode::kBlend)
       for (int k = 0; k < meshlet.triangle_count; ++k)
         triangles.push_back(static_cast<std::int32_t>(meshlet.first_triangle) + k);
-  std::vector<Item> work_items(triangles.size());
-  for_ranges(pool, work_items.size(), [&](std::size_t i) {
+  std::vector<Primitive> primitives(triangles.size());
+  for_ranges(pool, primitives.size(), [&](std::size_t i) {
     const Box box = box_of(geometry, triangles[i]);
     const Vec3f lo = box.lo, hi = box.hi;
-    work_items[i] = Item{Float4{lo.x, lo.y, lo.z, 0.0f}, Float4{hi.x, hi.y, hi.z, std::bit_cast<float>(triangles[i])}};
+    primitives[i] = Primitive{Float4{lo.x, lo.y, lo.z, 0.0f}, Float4{hi.x, hi.y, hi.z, std::bit_cast<float>(triangles[i])}};
   });
-  return work_items;
+  return primitives;
 }
 
 // Sixteen parts of a split: the largest are opened, first those of more leaves than a node has places, then those that
@@ -256,19 +257,19 @@ int open_split(const std::vector<Split>& splits, std::int32_t (&parts)[Bvh16::kW
 
 void Bvh16::build(const Geometry& geometry, const Materials& materials, bool with_corners, ThreadPool& pool) {
   nodes.clear(), leaves.clear(), kinds.clear(), corners.clear();
-  std::vector<Item> work_items = opaque_items(geometry, materials, pool);
-  if (work_items.empty()) return;
-  const std::vector<Split> splits = split_all(work_items, pool);
+  std::vector<Primitive> primitives = opaque_primitives(geometry, materials, pool);
+  if (primitives.empty()) return;
+  const std::vector<Split> splits = split_all(primitives, pool);
   leaves.reserve(static_cast<std::size_t>(splits[0].leaves)), kinds.reserve(static_cast<std::size_t>(splits[0].leaves));
   const auto make_leaf = [&](Range of) {
     Leaf& leaf = leaves.push();
     Kinds kind{};
     for (std::size_t k = 0; k < kWidth; ++k) {
-      leaf.id[k] = k < of.count ? work_items[of.first + k].triangle() : kNone;
+      leaf.id[k] = k < of.count ? primitives[of.first + k].triangle() : kNone;
       if (k >= of.count) continue;
       const std::uint16_t bit = static_cast<std::uint16_t>(1u << k);
       const Material& material = materials.materials[geometry.triangles[static_cast<std::size_t>(leaf.id[k])].material];
-      kind.there |= bit;
+      kind.present |= bit;
       if (!material.double_sided) kind.one_sided |= bit;
       if (material.alpha_mode == AlphaMode::kMask) kind.alpha_tested |= bit;
     }
@@ -283,7 +284,7 @@ void Bvh16::build(const Geometry& geometry, const Materials& materials, bool wit
       child[i] = kNone;
       if (i >= count) continue;
       const Split& split = splits[static_cast<std::size_t>(parts[i])];
-      child[i] = split.left < 0 ? make_leaf(split.work_items) : self(self, parts[i]);
+      child[i] = split.left < 0 ? make_leaf(split.primitives) : self(self, parts[i]);
     }
     Node& node = nodes.push();
     for (int i = 0; i < kWidth; ++i) put(node.boxes, i, Box()), node.child[i] = child[i];

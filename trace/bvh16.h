@@ -1,7 +1,7 @@
-// A tree of boxes over the scene's opaque triangles: what the narrow phase asks (trace/nearest_hit.h).
+// A bounding volume hierarchy over the scene's opaque triangles, sixteen children wide; trace/nearest_hit.h traverses it.
 //
-// Nodes have sixteen children, leaves sixteen triangles near each other: all boxes of either are tested at once. Which
-// boxes there are decides only what is looked at; what is found does not depend on them.
+// Nodes have sixteen children, leaves sixteen triangles near each other: all boxes of either are tested at once. The
+// boxes decide only which triangles are tested; the hit that is found does not depend on them.
 //
 // Memory  about 10 bytes a triangle, 60 with corners.
 // Source  Wald, Benthin and Boulos 2008, "Getting rid of packets": nodes as wide as the registers.
@@ -19,7 +19,7 @@ namespace shoal {
 struct Bvh16 {
   static constexpr int kWidth = 16;
   static constexpr std::int32_t kNone = 0x7FFFFFFF;
-  static constexpr int kMostLevels = 68;  // of nodes, whatever the scene
+  static constexpr int kMaxLevels = 68;  // of nodes, for every scene
   // Boxes, world, m, by axis; empty places hold an inverted one.
   struct alignas(64) Boxes {
     float lo[3][kWidth], hi[3][kWidth];
@@ -35,20 +35,20 @@ struct Bvh16 {
     float p0[3][kWidth], e1[3][kWidth], e2[3][kWidth];  // first corners, world, and the other two less it
   };
   struct Kinds {
-    std::uint16_t there, one_sided, alpha_tested;  // a bit a triangle
+    std::uint16_t present, one_sided, alpha_tested;  // a bit a triangle
   };
   PodVector<Node> nodes;       // the root last; none: nothing is opaque
-  PodVector<Leaf> leaves;      // near each other as the tree has them
+  PodVector<Leaf> leaves;      // in the order of the hierarchy, near ones together
   PodVector<Kinds> kinds;      // of the leaves
-  PodVector<Corners> corners;  // the same, for scenes that are asked often; else empty, and read from the scene
+  PodVector<Corners> corners;  // the same, for scenes with many queries; else empty, and read from the scene
 
-  // Over all opaque triangles, alpha-tested ones with them.
+  // Builds over all opaque triangles, alpha-tested ones included. The result does not depend on the threads.
   void build(const Geometry& geometry, const Materials& materials, bool with_corners, ThreadPool& pool);
-  // Boxes and corners anew, after vertices have moved.
+  // Computes boxes and corners anew after vertices have moved.
   void refit(const Geometry& geometry, ThreadPool& pool);
 };
 
-// Of a leaf's triangles; in empty places those of the first.
+// The corners of a leaf's triangles; empty places hold those of the first.
 SHOAL_INLINE void find_corners(const Geometry::TriangleRecord* triangles, const VertexRecord* vertices,
                                const Bvh16::Leaf& leaf, Bvh16::Corners& out) {
   for (int k = 0; k < Bvh16::kWidth; ++k) {

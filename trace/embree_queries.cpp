@@ -1,7 +1,7 @@
 // Ray queries by Embree 3: robust traversal, packets of sixteen.
 //
-// Triangles come in four kinds, one Embree geometry each, over the scene's own vertices: what a filter must look at is
-// then known from the geometry, and most triangles need none. Primitive numbers keep the scene's order within a kind.
+// Triangles come in four kinds, one Embree geometry each, over the scene's own vertices: the
+// geometry then decides which tests a filter makes, and most triangles need none. Primitive numbers keep the scene's order within a kind.
 // Blended triangles, which rays go through, are an Embree scene of their own.
 #include <embree3/rtcore.h>
 
@@ -42,7 +42,7 @@ struct QueryContext {
                                                : "the ray tracer fails: Embree error " + std::to_string(error));
 }
 
-// Lanes that a filter is asked about. A packet's rays carry their lane as id.
+// Lanes that a filter is called for. A packet's rays carry their lane as id.
 struct FilterLanes {
   std::uint32_t bits = 0;
   int place[16] = {};  // of the lane in Embree's arrays
@@ -76,15 +76,15 @@ std::uint32_t seen_from_behind(const RTCFilterFunctionNArguments* args, const Fi
   return behind;
 }
 
-std::uint32_t cut_out(const RTCFilterFunctionNArguments* args, const FilterLanes& lanes, std::uint32_t asked) {
+std::uint32_t cut_out(const RTCFilterFunctionNArguments* args, const FilterLanes& lanes, std::uint32_t wanted) {
   const RayPacket& rays = *reinterpret_cast<const QueryContext*>(args->context)->rays;
   const KindTriangles& kind = *static_cast<const KindTriangles*>(args->geometryUserPtr);
-  if (rays.keep == nullptr || asked == 0) return 0;
+  if (rays.alpha_test == nullptr || wanted == 0) return 0;
   std::int32_t id[16] = {};
   for (int lane = 0; lane < 16; ++lane)
-    if (((asked >> lane) & 1u) != 0)
+    if (((wanted >> lane) & 1u) != 0)
       id[lane] = kind.id[RTCHitN_primID(args->hit, args->N, static_cast<unsigned>(lanes.place[lane]))];
-  return asked & ~rays.keep(rays.context, rays, id, asked);
+  return wanted & ~rays.alpha_test(rays.context, rays, id, wanted);
 }
 
 void filter_first_hit(const RTCFilterFunctionNArguments* args) {
@@ -101,7 +101,7 @@ void filter_blocked(const RTCFilterFunctionNArguments* args) {
   refuse(args, lanes, kind.kind.casts ? cut_out(args, lanes, lanes.bits) : lanes.bits);
 }
 
-// Tells of each hit and refuses it, so that the next one is found.
+// Reports each hit and refuses it, so that the next one is found.
 void filter_blended(const RTCFilterFunctionNArguments* args) {
   const QueryContext& context = *reinterpret_cast<const QueryContext*>(args->context);
   const KindTriangles& kind = *static_cast<const KindTriangles*>(args->geometryUserPtr);

@@ -1,31 +1,31 @@
-// Narrow phase: what rays meet first in the scene (trace/nearest_hit.h).
+// Traversal of the BVH by packets of sixteen rays (trace/nearest_hit.h).
 #include "trace/nearest_hit.h"
 
-#include "refraction/narrow/confirm_hit.h"
+#include "raster/triangle_test.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
-// Nodes that wait: at most fifteen a level, and one.
-constexpr int kMostWaiting = 15 * Bvh16::kMostLevels + 1;
+// Children on the stack: at most fifteen a level, and one.
+constexpr int kStackSize = 15 * Bvh16::kMaxLevels + 1;
 
-// Rays go together where, along some axis, all go one way by at least this much.
-constexpr float kLeastAlong = 0.2f;
+// Rays form one packet frustum where all their directions have, along some axis, the same sign and at least this size.
+constexpr float kMinAlong = 0.2f;
 
-SHOAL_INLINE float least(WideF v, WideM lanes) { return reduce_min(select(lanes, v, WideF(3e38f))); }
-SHOAL_INLINE float greatest(WideF v, WideM lanes) { return reduce_max(select(lanes, v, WideF(-3e38f))); }
+SHOAL_INLINE float min_of(WideF v, WideM lanes) { return reduce_min(select(lanes, v, WideF(3e38f))); }
+SHOAL_INLINE float max_of(WideF v, WideM lanes) { return reduce_max(select(lanes, v, WideF(-3e38f))); }
 SHOAL_INLINE WideF along(const Vec3<WideF>& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-// Which way rays go: the axis along which they all go, and its sense.
+// The axis along which all rays of a packet advance, and its sign.
 struct Heading {
   int axis = 0;
   float sense = 0;  // 1 or -1; 0: none
 };
 
-// Rays as one beam: at a depth along the axis they are within an interval on either of the others, whose ends move in
-// proportion to the depth.
-struct Beam {
+// The frustum of a packet of rays: at a depth along its axis all rays lie in an interval on either of the other axes,
+// and the ends of the intervals move in proportion to the depth.
+struct PacketFrustum {
   int axis[3];
   float sense;
   float base_lo, base_hi;  // where they start, along the axis
@@ -34,14 +34,14 @@ struct Beam {
   WideF per_t;  // depth by length
 
   // Intervals are wider than their rounding.
-  Beam(const Ray<WideF>& ray, const Heading& heading, WideM lanes) : sense(heading.sense) {
+  PacketFrustum(const Ray<WideF>& ray, const Heading& heading, WideM lanes) : sense(heading.sense) {
     axis[0] = heading.axis, axis[1] = (heading.axis + 1) % 3, axis[2] = (heading.axis + 2) % 3;
     const WideF main = along(ray.direction_world, axis[0]);
     per_t = abs(main);
     const WideF inverse = WideF(1.0f) / select(lanes, per_t, WideF(1.0f));
     const auto starts = [&](int a, float& from, float& to) SHOAL_LAMBDA {
       const WideF o = along(ray.origin_world, a);
-      from = least(o, lanes), to = greatest(o, lanes);
+      from = min_of(o, lanes), to = max_of(o, lanes);
       const float by = 1e-6f * max(abs(from), abs(to));
       from -= by, to += by;
     };
@@ -49,13 +49,13 @@ struct Beam {
     for (int k = 0; k < 2; ++k) {
       starts(axis[k + 1], lo[k], hi[k]);
       const WideF slope = along(ray.direction_world, axis[k + 1]) * inverse;
-      slope_lo[k] = least(slope, lanes), slope_hi[k] = greatest(slope, lanes);
+      slope_lo[k] = min_of(slope, lanes), slope_hi[k] = max_of(slope, lanes);
       slope_lo[k] -= 2e-6f * (1.0f + abs(slope_lo[k])), slope_hi[k] += 2e-6f * (1.0f + abs(slope_hi[k]));
     }
   }
 
-  // The boxes that any of the rays may pass before `reach`.
-  //   enter  at which depth, at least
+  // The boxes that any of the rays may enter before `reach`.
+  //   enter  the least depth at which a ray may enter each box
   SHOAL_INLINE WideM passes(const Bvh16::Boxes& boxes, float reach, WideF& enter) const {
     const bool up = sense > 0.0f;
     const WideF first = WideF::load((up ? boxes.lo : boxes.hi)[axis[0]]),
@@ -74,9 +74,9 @@ struct Beam {
 
 class Search {
  public:
-  Search(const FrameData& frame, const Ray<WideF>& rays, const RayDifferential<WideF>& differential_of,
-         const NearestHit& known)
-      : t(known.t), id(known.id), f(frame), ray(rays), differential(differential_of) {
+  Search(const Bvh16& tree, const ShadingView& shading, const Ray<WideF>& rays,
+         const RayDifferential<WideF>& differential_of, const NearestHit& known)
+      : t(known.t), id(known.id), bvh(tree), view(shading), ray(rays), differential(differential_of) {
     const auto inverted = [](WideF d) SHOAL_LAMBDA {
       const WideF least_d = select(d < WideF(0.0f), WideF(-1e-20f), WideF(1e-20f));
       return WideF(1.0f) / select(abs(d) < WideF(1e-20f), least_d, d);
@@ -88,22 +88,22 @@ class Search {
 
   void run(const Heading& heading, WideM of_lanes) {
     lanes = of_lanes;
-    const Beam beam(ray, heading, lanes);
-    find_reach(beam);
-    waiting = 0;
-    open(beam, f.tree->nodes.size() - 1);
-    while (waiting > 0) {
-      --waiting;
-      if (enters[waiting] > reach) continue;
-      const Bvh16::Node& node = f.tree->nodes[parents[waiting] >> 4];
-      const std::size_t place = parents[waiting] & 15u;
+    const PacketFrustum frustum(ray, heading, lanes);
+    find_reach(frustum);
+    stack_size_ = 0;
+    open(frustum, bvh.nodes.size() - 1);
+    while (stack_size_ > 0) {
+      --stack_size_;
+      if (enters[stack_size_] > reach) continue;
+      const Bvh16::Node& node = bvh.nodes[parents[stack_size_] >> 4];
+      const std::size_t place = parents[stack_size_] & 15u;
       const WideM passing = rays_through(node.boxes, place);
       if (none(passing)) continue;
       const std::int32_t child = node.child[place];
       if (child < 0)
-        meet(beam, static_cast<std::size_t>(~child), passing);
+        test_leaf(frustum, static_cast<std::size_t>(~child), passing);
       else
-        open(beam, static_cast<std::size_t>(child));
+        open(frustum, static_cast<std::size_t>(child));
     }
   }
 
@@ -111,7 +111,7 @@ class Search {
   WideI id;
 
  private:
-  // The lanes that pass one box before what they meet.
+  // The lanes that enter one box before their nearest hit.
   WideM rays_through(const Bvh16::Boxes& boxes, std::size_t place) const {
     WideF enter(0.0f), leave = t;
     const auto slab = [&](int a, WideF origin, WideF inv) SHOAL_LAMBDA {
@@ -122,26 +122,26 @@ class Search {
         slab(2, ray.origin_world.z, inverse.z);
     return lanes & (enter <= leave);
   }
-  void find_reach(const Beam& beam) { reach = greatest(t * beam.per_t, lanes) * 1.000001f; }
+  void find_reach(const PacketFrustum& frustum) { reach = max_of(t * frustum.per_t, lanes) * 1.000001f; }
 
-  // The children that the beam passes, the nearest last.
-  void open(const Beam& beam, std::size_t at) {
+  // Pushes the children that the frustum enters, the nearest last.
+  void open(const PacketFrustum& frustum, std::size_t at) {
     WideF enter;
-    std::uint32_t left = to_bits(beam.passes(f.tree->nodes[at].boxes, reach, enter));
+    std::uint32_t left = to_bits(frustum.passes(bvh.nodes[at].boxes, reach, enter));
     if (left == 0) return;
     alignas(64) float enter_of[Bvh16::kWidth];
     enter.store(enter_of);
-    const int first = waiting;
+    const int first = stack_size_;
     for (; left != 0; left &= left - 1) {
       const std::uint32_t k = static_cast<std::uint32_t>(__builtin_ctz(left));
-      int place = waiting++;
+      int place = stack_size_++;
       for (; place > first && enters[place - 1] < enter_of[k]; --place)
         parents[place] = parents[place - 1], enters[place] = enters[place - 1];
       parents[place] = static_cast<std::uint32_t>(at) << 4 | k, enters[place] = enter_of[k];
     }
   }
 
-  // Boxes of a leaf's triangles, grown as triangle_tree.cpp does.
+  // Boxes of a leaf's triangles, grown as bvh16.cpp grows them.
   static void find_boxes(const Bvh16::Corners& leaf, Bvh16::Boxes& boxes) {
     for (int a = 0; a < 3; ++a) {
       const WideF p0 = WideF::load(leaf.p0[a]), e1 = WideF::load(leaf.e1[a]), e2 = WideF::load(leaf.e2[a]);
@@ -151,26 +151,26 @@ class Search {
     }
   }
 
-  void meet(const Beam& beam, std::size_t at, WideM passing) {
-    const Bvh16::Leaf& leaf = f.tree->leaves[at];
-    const Bvh16::Kinds kinds = f.tree->kinds[at];
+  void test_leaf(const PacketFrustum& frustum, std::size_t at, WideM passing) {
+    const Bvh16::Leaf& leaf = bvh.leaves[at];
+    const Bvh16::Kinds kinds = bvh.kinds[at];
     Bvh16::Corners read;
-    const bool kept = f.tree->corners.size() != 0;
-    if (!kept) find_corners(f.geometry.triangles, f.geometry.vertices, leaf, read);
-    const Bvh16::Corners& corners = kept ? f.tree->corners[at] : read;
+    const bool kept = bvh.corners.size() != 0;
+    if (!kept) find_corners(view.geometry.triangles, view.geometry.vertices, leaf, read);
+    const Bvh16::Corners& corners = kept ? bvh.corners[at] : read;
     Bvh16::Boxes boxes;
     find_boxes(corners, boxes);
     WideF enter;
-    const std::uint32_t near_beam = to_bits(beam.passes(boxes, reach, enter)) & kinds.there;
-    if (near_beam == 0) return;
-    if (__builtin_popcount(near_beam) <= __builtin_popcount(to_bits(passing)))
-      meet_by_triangles(leaf, corners, kinds, near_beam);
+    const std::uint32_t in_frustum = to_bits(frustum.passes(boxes, reach, enter)) & kinds.present;
+    if (in_frustum == 0) return;
+    if (__builtin_popcount(in_frustum) <= __builtin_popcount(to_bits(passing)))
+      test_by_triangles(leaf, corners, kinds, in_frustum);
     else
-      meet_by_rays(leaf, corners, kinds, near_beam, to_bits(passing));
-    find_reach(beam);
+      test_by_rays(leaf, corners, kinds, in_frustum, to_bits(passing));
+    find_reach(frustum);
   }
   // Each triangle against all rays.
-  void meet_by_triangles(const Bvh16::Leaf& leaf, const Bvh16::Corners& corners,
+  void test_by_triangles(const Bvh16::Leaf& leaf, const Bvh16::Corners& corners,
                          Bvh16::Kinds kinds, std::uint32_t triangles) {
     for (std::uint32_t left = triangles; left != 0; left &= left - 1) {
       const int k = __builtin_ctz(left);
@@ -181,19 +181,19 @@ class Search {
       const TriangleTest test =
           test_triangle(ray, broadcast<WideF>(vector(corners.p0)), broadcast<WideF>(e1), broadcast<WideF>(e2), lanes);
       const WideI candidate(leaf.id[k]);
-      WideM met = test.inside & ((test.t < t) | ((test.t == t) & (candidate < id)));
-      if (none(met)) continue;
+      WideM hit = test.inside & ((test.t < t) | ((test.t == t) & (candidate < id)));
+      if (none(hit)) continue;
       const std::uint32_t bit = 1u << k;
       if ((kinds.one_sided & bit) != 0)
-        met = met & (dot(ray.direction_world, broadcast<WideF>(cross(e1, e2))) < WideF(0.0f));
+        hit = hit & (dot(ray.direction_world, broadcast<WideF>(cross(e1, e2))) < WideF(0.0f));
       if ((kinds.alpha_tested & bit) != 0)
-        met = met & mask_from_bits(alpha_bits(f, ray, differential, leaf.id[k], to_bits(met)));
-      t = select(met, test.t, t);
-      id = select(met, candidate, id);
+        hit = hit & mask_from_bits(alpha_bits(view, ray, differential, leaf.id[k], to_bits(hit)));
+      t = select(hit, test.t, t);
+      id = select(hit, candidate, id);
     }
   }
   // Each ray against all triangles.
-  void meet_by_rays(const Bvh16::Leaf& leaf, const Bvh16::Corners& corners, Bvh16::Kinds kinds,
+  void test_by_rays(const Bvh16::Leaf& leaf, const Bvh16::Corners& corners, Bvh16::Kinds kinds,
                     std::uint32_t triangles, std::uint32_t passing) {
     const auto vector = [](const float(*v)[Bvh16::kWidth]) SHOAL_LAMBDA {
       return Vec3<WideF>{WideF::load(v[0]), WideF::load(v[1]), WideF::load(v[2])};
@@ -216,32 +216,33 @@ class Search {
       for (; left != 0; left &= left - 1) {
         const int k = __builtin_ctz(left);
         if (at[k] > t_of[lane] || (at[k] == t_of[lane] && leaf.id[k] > id_of[lane])) continue;
-        if ((kinds.alpha_tested >> k & 1u) != 0 && alpha_bits(f, ray, differential, leaf.id[k], 1u << lane) == 0) continue;
+        if ((kinds.alpha_tested >> k & 1u) != 0 && alpha_bits(view, ray, differential, leaf.id[k], 1u << lane) == 0) continue;
         t_of[lane] = at[k], id_of[lane] = leaf.id[k];
       }
     }
     t = WideF::load(t_of), id = WideI::load(id_of);
   }
 
-  const FrameData& f;
+  const Bvh16& bvh;
+  const ShadingView& view;
   const Ray<WideF>& ray;
   const RayDifferential<WideF>& differential;
   WideM lanes;
   Vec3<WideF> inverse;  // of the directions
   alignas(64) float ray_of[6][16];
-  float reach = 0;  // along the beam: nothing beyond is nearer than what is known
-  int waiting = 0;
-  std::uint32_t parents[kMostWaiting];  // 16 x the node + the place in it
-  float enters[kMostWaiting];
+  float reach = 0;  // along the frustum's axis: nothing beyond is nearer than the hits found so far
+  int stack_size_ = 0;
+  std::uint32_t parents[kStackSize];  // 16 times the node, plus the child's place in it
+  float enters[kStackSize];
 };
 
-// All lanes' common heading, or, where there is none, the first one's own.
+// The common heading of all lanes, or, where there is none, that of the first lane.
 Heading find_heading(const Ray<WideF>& ray, WideM lanes) {
   Heading best;
-  float most = kLeastAlong;
+  float most = kMinAlong;
   for (int a = 0; a < 3; ++a) {
     const WideF d = along(ray.direction_world, a);
-    const float up = least(d, lanes), down = -greatest(d, lanes);
+    const float up = min_of(d, lanes), down = -max_of(d, lanes);
     if (up > most) best = {a, 1.0f}, most = up;
     if (down > most) best = {a, -1.0f}, most = down;
   }
@@ -257,14 +258,14 @@ Heading find_heading(const Ray<WideF>& ray, WideM lanes) {
 
 }  // namespace
 
-NearestHit nearest_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential,
-                        const NearestHit& known, WideM lanes) {
-  if (f.tree->nodes.size() == 0) return known;
-  Search search(f, ray, differential, known);
+NearestHit nearest_hits(const Bvh16& bvh, const ShadingView& view, const Ray<WideF>& ray,
+                        const RayDifferential<WideF>& differential, const NearestHit& known, WideM lanes) {
+  if (bvh.nodes.size() == 0) return known;
+  Search search(bvh, view, ray, differential, known);
   while (any(lanes)) {
     const Heading heading = find_heading(ray, lanes);
     const WideM together =
-        lanes & (along(ray.direction_world, heading.axis) * WideF(heading.sense) > WideF(kLeastAlong));
+        lanes & (along(ray.direction_world, heading.axis) * WideF(heading.sense) > WideF(kMinAlong));
     if (none(together)) break;
     search.run(heading, together);
     lanes = lanes & !together;

@@ -1,6 +1,6 @@
-// What the ray tracer and traced shadows ask of a scene: which triangle do sixteen rays meet first, and does anything
-// stand in their way? Plain data, so that kernels of every ISA share it; the answers come from Embree, at the edge
-// (trace/embree_queries.cpp), and the hit itself is computed anew by our own arithmetic (raster/resolve.h).
+// Ray queries of the reference and of traced shadows: the first triangle of sixteen rays, and whether anything blocks
+// them. The interface is plain data, so that the kernels of every instruction set share it. Embree finds the triangles
+// (trace/embree_queries.cpp); our own arithmetic computes the hit itself anew (raster/resolve.h).
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@ namespace shoal {
 
 struct RayPacket;
 
-// Of alpha-tested triangles: which of the lanes their material keeps where the rays meet them.
+// Alpha test: the lanes that the materials of alpha-tested triangles keep where the rays hit them.
 //   id  a triangle a lane; lanes: bit i, lane i
-using KeepHits = std::uint32_t (*)(const void* context, const RayPacket&, const std::int32_t* id, std::uint32_t lanes);
+using AlphaTestHits = std::uint32_t (*)(const void* context, const RayPacket&, const std::int32_t* id, std::uint32_t lanes);
 
-// Of blended triangles that rays meet, in no order, some perhaps twice.
+// Receives the blended triangles that rays hit, in no order, some perhaps twice.
 using VisitHits = void (*)(void* context, const RayPacket&, const std::int32_t* id, std::uint32_t lanes);
 
 struct alignas(64) RayPacket {
   float origin_x[16], origin_y[16], origin_z[16];           // world, m
   float direction_x[16], direction_y[16], direction_z[16];  // any length
   float t_near[16], t_far[16];                              // in the direction's lengths
-  std::int32_t id[16];                                      // answer of first_hits: the triangle, kNoId where none
-  KeepHits keep = nullptr;
+  std::int32_t id[16];                                      // result of first_hits: the triangle, kNoId where none
+  AlphaTestHits alpha_test = nullptr;
   const void* context = nullptr;
 };
 
@@ -32,14 +32,14 @@ class RayQueries {
  public:
   virtual ~RayQueries() = default;
   // The nearest opaque triangle of each ray, as the rasterizer draws them: one-sided materials from their front alone,
-  // alpha-tested ones where `keep` says so, blended ones not.
+  // alpha-tested ones where `alpha_test` keeps the hit, blended ones not.
   virtual void first_hits(RayPacket& rays, std::uint32_t lanes) const = 0;
-  // Hands every blended triangle that a ray meets between its t_near and t_far to `visit`, from either side.
+  // Hands every blended triangle that a ray hits between its t_near and t_far to `visit`, from either side.
   virtual void each_blended(const RayPacket& rays, std::uint32_t lanes, VisitHits visit, void* context) const = 0;
-  // Lanes whose ray something that casts shadows is in the way of: both sides of everything drawn that is neither unlit
-  // nor blended (docs/scenes.md).
+  // The lanes whose rays are blocked by something that casts shadows: both sides of everything drawn that is neither
+  // unlit nor blended (docs/scenes.md).
   virtual std::uint32_t blocked(const RayPacket& rays, std::uint32_t lanes) const = 0;
-  // After the scene's vertices have moved.
+  // Follows the scene's vertices after they have moved.
   virtual void update() = 0;
 };
 

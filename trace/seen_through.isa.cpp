@@ -1,5 +1,9 @@
-// What rays see through on their way (trace/trace_rays.h): found by ray queries, in exact order.
+// Blended triangles on the way of rays (trace/trace_rays.h), found by ray queries and composited in exact order.
 #include "trace/trace_rays.h"
+
+#include "raster/resolve.h"
+#include "scene/water_absorption.h"
+#include "shading/shade_hits.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -16,10 +20,10 @@ SHOAL_INLINE WideM nearer(WideF t, WideI id, WideF other_t, WideI other_id) {
 // The nearest blended triangles of sixteen rays that are beyond `taken` and in front of `end`, sorted. What does not
 // fit is found again by a further round, as raster/fragments.h has it.
 struct BlendedLists {
-  BlendedLists(const FrameData& f, const Ray<WideF>& along, float from, WideF to, WideI to_id)
-      : frame(f), ray(along), t_near(from), end_t(to), end_id(to_id) {}
+  BlendedLists(const GeometryView& g, const Ray<WideF>& along, const PathSegment& segment)
+      : geometry(g), ray(along), t_near(segment.t_near), end_t(segment.end_t), end_id(segment.end_id) {}
 
-  const FrameData& frame;
+  const GeometryView& geometry;
   const Ray<WideF>& ray;
   float t_near;
   WideF end_t;
@@ -32,12 +36,12 @@ struct BlendedLists {
   WideM dropped = mask_from_bits(0);
 
   __attribute__((noinline)) void insert(WideI candidates, WideM lanes) {
-    const Geometry::TriangleRecord* triangles = frame.geometry.triangles;
-    WideF at = triangle_distance(frame.geometry, ray, candidates, lanes);
+    const Geometry::TriangleRecord* triangles = geometry.triangles;
+    WideF at = triangle_distance(geometry, ray, candidates, lanes);
     WideM wanted = lanes & (at > WideF(0.0f)) & (at >= WideF(t_near)) & nearer(at, candidates, end_t, end_id) &
                    nearer(taken_t, taken_id, at, candidates);
     for_each_distinct(candidates, wanted, [&](std::int32_t one, WideM same) SHOAL_LAMBDA {
-      if (frame.geometry.materials[triangles[one].material].double_sided) return;
+      if (geometry.draw_states[triangles[one].material].double_sided) return;
       const Vec3f facet = facet_of(one);
       wanted = wanted & !(same & (dot(broadcast<WideF>(facet), ray.direction_world) > WideF(0.0f)));
     });
@@ -68,10 +72,10 @@ struct BlendedLists {
 
  private:
   Vec3f facet_of(std::int32_t one) const {
-    const Geometry::TriangleRecord& r = frame.geometry.triangles[one];
-    const Vec3f a = frame.geometry.vertices[r.vertex[0]].position_world;
-    return cross(frame.geometry.vertices[r.vertex[1]].position_world - a,
-                 frame.geometry.vertices[r.vertex[2]].position_world - a);
+    const Geometry::TriangleRecord& r = geometry.triangles[one];
+    const Vec3f a = geometry.vertices[r.vertex[0]].position_world;
+    return cross(geometry.vertices[r.vertex[1]].position_world - a,
+                 geometry.vertices[r.vertex[2]].position_world - a);
   }
 };
 
@@ -83,31 +87,32 @@ void visit(void* context, const RayPacket&, const std::int32_t* id, std::uint32_
 
 }  // namespace
 
-SeenThrough seen_through(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential,
-                         float t_near, WideF end_t, WideI end_id, const WaterPass* medium, WideM lanes) {
+SeenThrough seen_through(const RayQueries& rays, const SceneView& scene, const Ray<WideF>& ray,
+                         const RayDifferential<WideF>& differential, const PathSegment& segment, WideM lanes) {
   SeenThrough sum;
-  if (!f.blended.any()) return sum;
-  // Embree's distances are not quite ours: it is asked a little beyond, and ours decide.
-  const WideF asked = min(end_t * WideF(1.0001f), WideF(3e38f));
+  const PlacedWater* water = segment.body < 0 ? nullptr : &scene.water[static_cast<std::size_t>(segment.body)];
+  const LightMedium* medium = segment.body < 0 ? nullptr : &scene.light_media[segment.body];
+  // Embree's distances differ from ours by rounding: the query reaches a little farther, and our distances decide.
+  const WideF reach = min(segment.end_t * WideF(1.0001f), WideF(3e38f));
   RayPacket packet;
-  fill_packet(packet, ray, 0.0f, asked);
-  BlendedLists lists(f, ray, t_near, end_t, end_id);
+  fill_packet(packet, ray, 0.0f, reach);
+  BlendedLists lists(scene.geometry(), ray, segment);
   for (WideM open = lanes; any(open);) {
     lists.count = 0, lists.dropped = mask_from_bits(0);
-    f.rays->each_blended(packet, to_bits(open), &visit, &lists);
+    rays.each_blended(packet, to_bits(open), &visit, &lists);
     for (int n = 0; n < lists.count; ++n) {
-      const WideM here = open & is_triangle(lists.id[n]) & (sum.keep > WideF(0.0f));
+      const WideM here = open & is_triangle(lists.id[n]) & (sum.transmittance > WideF(0.0f));
       if (none(here)) continue;
       ShadedLanes s;
-      shade_hits(f, ray, differential, lists.id[n], here, medium, s);
+      shade_hits(scene.shading, ray, differential, lists.id[n], here, medium, s);
       Vec3<WideF> light = s.radiance;
-      if (medium != nullptr)
-        light = light * absorbed(*medium->body, max(s.t * length(ray.direction_world), WideF(0.0f)));
+      if (water != nullptr)
+        light = light * absorbed(*water->body, max(s.t * length(ray.direction_world), WideF(0.0f)));
       const WideF alpha = clamp(s.surface.alpha, WideF(0.0f), WideF(1.0f));
-      sum.light = select<WideF>(here, sum.light + light * (sum.keep * alpha), sum.light);
-      sum.keep = select(here, sum.keep * (WideF(1.0f) - alpha), sum.keep);
+      sum.light = select<WideF>(here, sum.light + light * (sum.transmittance * alpha), sum.light);
+      sum.transmittance = select(here, sum.transmittance * (WideF(1.0f) - alpha), sum.transmittance);
     }
-    open = open & lists.dropped & (sum.keep > WideF(0.0f));
+    open = open & lists.dropped & (sum.transmittance > WideF(0.0f));
     if (none(open)) break;
     lists.taken_t = lists.t[kLayers - 1], lists.taken_id = lists.id[kLayers - 1];
   }

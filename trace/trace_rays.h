@@ -1,42 +1,59 @@
-// Rays of sixteen pixels into the scene.
+// Rays of sixteen lanes into the scene: first hits, traced shadows, and the blended triangles on their way.
 #pragma once
 
-#include "refraction/pixel_stage.h"
+#include "raster/blocks.h"
+#include "scene/scene_view.h"
+#include "trace/ray_counts.h"
+#include "trace/trace_view.h"
+
+namespace shoal {
+
+// The context of ShadowRays::blocked. All three outlive the frame.
+struct TracedShadows {
+  const ShadingView* view = nullptr;
+  const RayQueries* rays = nullptr;
+  RayCounts* counts = nullptr;  // shadow rays are added here
+};
+
+}  // namespace shoal
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-// The triangle that each ray meets first between t_near and t_far (in the direction's lengths); kNoId where there is
+// The triangle that each ray hits first between t_near and t_far (in lengths of the direction); kNoId where there is
 // none.
-//   differential  of the rays: what cut-out textures are filtered by
-// Source: Wald et al. 2014 (Embree), robust mode. Differs: Embree tells the triangle alone; the point is
-// ray_triangle's. Error: a ray within rounding of an edge may be given the neighbour, on another ISA another one
-// (DESIGN 3); elsewhere
-//        the triangle is that of rays in double (tests/refraction/test_ray_traced.cpp).
-WideI first_hits(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential, float t_near,
-                 WideF t_far, WideM lanes);
+//   differential  of the rays: the footprint of alpha-tested textures
+// Source: Wald et al. 2014 (Embree), robust mode. Differs: Embree finds the triangle alone; the hit is computed by
+//         raster/ray_triangle.h.
+// Error: a ray within rounding of an edge may be given the neighbour, and on another instruction set another one;
+//        elsewhere the triangle is that of rays in double (tests/refraction/test_ray_traced.cpp).
+WideI first_hits(const RayQueries& rays, const ShadingView& view, const Ray<WideF>& ray,
+                 const RayDifferential<WideF>& differential, float t_near, WideF t_far, WideM lanes);
 
-// Which of the points are in the sun's shadow, by rays towards it; under a plane of water along the refracted way to
-// the plane, then on in the air.
-//   position, facet  world; of the triangle, unit, either side
-//   water            the body that the points lie in, or null
-// Returns the lanes whose way is blocked. The water's plane bends the way, its waves do not (docs/decisions/0008).
+// ShadowRays::blocked by rays towards the sun; under a plane of water along the refracted way to the plane, then on in
+// the air.
+//   context  a TracedShadows
+// The water's plane bends the way, its waves do not (docs/decisions/0008).
 // Error: none but within 1 mm of a shadow's edge, against rays in double (tests/refraction/test_shadow.cpp).
-WideM sun_blocked(const FrameData& f, const WaterPass* water, Vec3<WideF> position, Vec3<WideF> facet, WideM lanes);
+std::uint32_t sun_blocked(const void* context, const ShadowQuery& query, const SunBend* bend, std::uint32_t lanes);
 
-// The light of blended triangles that rays pass, the nearer ones' share off, and what they let through.
+// The light of blended triangles on the way of a ray, less the share that nearer ones absorb, and what they transmit.
 struct SeenThrough {
   Vec3<WideF> light{WideF(0.0f), WideF(0.0f), WideF(0.0f)};
-  WideF keep{1.0f};
+  WideF transmittance{1.0f};
 };
 
-// Of the triangles between t_near (and the origin) and the end, by (distance, id), all of them.
-//   end_t, end_id  where the rays end, in their directions' lengths, and what is there: of what is as far as it, the
-//                  smaller id is in front
-//   medium         the body of water that the rays run through, or null: light is absorbed over its own path
-// Nothing, and at no cost, in a scene without blended materials.
+// Where rays end, and the water that they run through.
+struct PathSegment {
+  float t_near;               // in lengths of the direction
+  WideF end_t;                // the same
+  WideI end_id;               // what is there: of a blended triangle as far as it, the smaller id is in front
+  std::int32_t body = -1;     // that absorbs the light on its way; -1: none
+};
+
+// Composites all blended triangles between t_near (and the origin) and the end, by (distance, id).
 // Source, error: as refraction/passes/blend_region.h.
-SeenThrough seen_through(const FrameData& f, const Ray<WideF>& ray, const RayDifferential<WideF>& differential,
-                         float t_near, WideF end_t, WideI end_id, const WaterPass* medium, WideM lanes);
+SeenThrough seen_through(const RayQueries& rays, const SceneView& scene, const Ray<WideF>& ray,
+                         const RayDifferential<WideF>& differential, const PathSegment& segment, WideM lanes);
 
 SHOAL_INLINE void fill_packet(RayPacket& packet, const Ray<WideF>& ray, float t_near, WideF t_far) {
   ray.origin_world.x.store(packet.origin_x), ray.origin_world.y.store(packet.origin_y);
@@ -46,8 +63,5 @@ SHOAL_INLINE void fill_packet(RayPacket& packet, const Ray<WideF>& ray, float t_
   WideF(t_near).store(packet.t_near);
   t_far.store(packet.t_far);
 }
-
-// Adds to the frame's counts, from any thread. Exact (tests/refraction/test_ray_traced.cpp).
-void count_rays(const FrameData& f, RayCounts::Kind kind, std::uint64_t rays);
 
 }  // namespace shoal::inline SHOAL_ISA_NS

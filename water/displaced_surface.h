@@ -1,7 +1,7 @@
 // The displaced surface of the water as rays meet it: the height field itself, inside of the body's outline.
 #pragma once
 
-#include "raster/camera.h"
+#include "core/ray.h"
 #include "water/body.h"
 #include "water/intersect_surface.h"
 
@@ -49,7 +49,7 @@ SHOAL_INLINE Stretch<F> over_triangle(const Vec3f* corner, Vec3f normal, const R
 
 // Where a ray first meets the displaced surface of a body, inside of the outline.
 //
-//   t_min  >= 0, in the direction's lengths; lanes: which rays are asked for
+//   t_min  >= 0, in the direction's lengths; lanes: the rays that are wanted
 // Returns t, infinity where it does not; error as intersect_surface.
 template <class F>
 SHOAL_INLINE F meet_displaced(const WaterBody& body, const WaterSurface& surface, const Ray<F>& ray, F t_min,

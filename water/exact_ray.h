@@ -1,9 +1,8 @@
-// One pixel's ray at flat water: where it meets the plane, how it goes on refracted and reflected, and how all of that
-// changes from pixel to pixel (ray differentials, for texture filtering).
+// One ray at a water interface: where it crosses the surface, how it continues refracted and reflected, and how all of
+// that changes from pixel to pixel (ray differentials, for texture filtering).
 #pragma once
 
-#include "raster/ray_triangle.h"
-#include "refraction/broad/broad_phase.h"
+#include "core/ray.h"
 #include "water/displaced_surface.h"
 #include "water/filter_surface.h"
 #include "water/optics.h"
@@ -11,21 +10,18 @@
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-// One side of a plane of water: what a ray that comes from there meets.
+// One side of a water interface, as a ray meets it that comes from there.
 struct WaterSide {
   Vec3f plane_origin;
   Vec3f normal;   // unit, towards the side that the ray comes from
   float eta = 1;  // n_incident / n_transmitted
-  // Of moving water, whose normals the plane then has; null: flat.
+  // The body and its surface at this time, where the water moves; null: the plane is flat.
   const WaterBody* body = nullptr;
   const WaterSurface* surface = nullptr;
-  float t_near = 0;  // displaced water is met from there on, in the ray's lengths
-  // Of the eye's rays, whose waves are filtered over the pixel: their differential. Null: waves as they are.
+  float t_near = 0;  // a displaced surface is searched from there on, in lengths of the ray's direction
+  // The differential of the eye's rays, where waves are filtered over the pixel; null: waves as they are.
   const RayDifferential<float>* pixel = nullptr;
 };
-SHOAL_INLINE WaterSide eye_side(const BroadPhase& bp) {
-  return {bp.plane_origin, -bp.far_normal, bp.eye_below ? bp.path.ior : 1.0f / bp.path.ior};
-}
 SHOAL_INLINE WaterSide water_side(const WaterBody& body, const WaterSurface* surface, bool from_below) {
   return {body.origin, from_below ? -body.normal : body.normal, from_below ? body.ior : 1.0f / body.ior, &body,
           surface};
@@ -146,7 +142,7 @@ SHOAL_INLINE ExactRay<F> displaced_ray(const WaterBody& body, const WaterSurface
   go_on_from(out);
   return out;
 }
-// Out of line: it is long, and asked for in many places.
+// Out of line, because it is long and has several callers.
 template <class F>
 __attribute__((noinline)) inline ExactRay<F> displaced_ray(const WaterSide& side, const Ray<F>& ray) {
   const F t = meet_displaced(*side.body, *side.surface, ray, F(side.t_near), F(0.0f) == F(0.0f));
@@ -182,18 +178,12 @@ SHOAL_INLINE ExactRay<F> exact_ray(const WaterSide& side, Ray<F> ray) {
   return out;
 }
 
-// A view ray: the eye's side is the incident one.
-template <class F>
-SHOAL_INLINE ExactRay<F> exact_ray(const BroadPhase& bp, Ray<F> ray) {
-  return exact_ray(eye_side(bp), ray);
-}
-
 // Differentials of the unit direction and of the crossing, before the interface.
 //
 //   ray, differential  the view ray and its own differential (pixel_ray_differential)
 //   hit                exact_ray of it; where it does not cross, all derivatives are 0
 // Source: Igehy (1999), eqs. 3 and 10-12. Differs: moving water's normals count as constant within a pixel's footprint,
-// for every method and the truth alike, so no shape operator appears.
+// for every method and the reference alike, so no shape operator appears.
 template <class F>
 SHOAL_INLINE RayDifferential<F> at_crossing(Ray<F> ray, RayDifferential<F> differential, const ExactRay<F>& hit) {
   const F zero = F(0.0f);

@@ -1,7 +1,7 @@
 // Narrow phase, last step (refraction/narrow/confirm_hit.h).
 #include "refraction/narrow/confirm_hit.h"
 
-#include "refraction/pixel_stage.h"
+#include "raster/blocks.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 

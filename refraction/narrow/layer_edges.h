@@ -1,11 +1,11 @@
-// Where a layer has edges: beside them the triangle that a pixel's centre shows may not be the one that its ray meets.
+// The edges of a layer: beside them the triangle that a pixel's centre shows may not be the one that its ray hits.
 #pragma once
 
 #include "raster/visibility.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-// Of the blocks of a 64-pixel region.
+// Which blocks of a 64-pixel region have an edge.
 struct EdgeBlocks {
   static constexpr int kAcross = kRegionSize / kBlockSize;
   std::uint16_t row[kAcross];          // bit i: block i has an edge within a pixel
@@ -14,10 +14,10 @@ struct EdgeBlocks {
   }
 };
 
-// Of one region of the layer's grid; outside of the layer counts as its border does.
+// Finds the edges of one region of the layer's grid; pixels outside of the layer count as its border does.
 //   layer  depth as drawn, larger is nearer; region  of layer.grid
 // Source: a plane's depth is linear on the screen, so its second differences are 0; what counts as an edge is ours.
-// Error: none in exact planes and steps (tests/trace/test_bvh16.cpp); steps of less than a thousandth of
+// Error: none in exact planes and steps (tests/refraction/test_layer_edges.cpp); steps of less than a thousandth of
 //        the depth are no edges.
 EdgeBlocks find_edges(const VisibilityBuffer& layer, std::size_t region);
 

@@ -1,4 +1,4 @@
-// Edges of a layer (refraction/narrow/layer_edges.h).
+// Edge detection in a layer (refraction/narrow/layer_edges.h).
 #include "refraction/narrow/layer_edges.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
@@ -8,13 +8,13 @@ namespace {
 // Depth as drawn is linear over a plane, so its second differences are 0 there; at an edge they are the step. A share
 // of the nearest depth: of perspective's depth, which goes as the inverse of the distance, the same share of the
 // distance.
-constexpr float kLeastStep = 0.001f;
+constexpr float kMinStep = 0.001f;
 
 // A region and a pixel around it, by rows: pixel (x, y) of the region is at[y + 1][kFirst + x].
 constexpr int kFirst = 4, kRow = kRegionSize + 32;
 using Rows = float[kRegionSize + 2][kRow];
 
-// Beyond the layer is as at its border.
+// Pixels beyond the layer repeat its border.
 void copy_rows(const VisibilityBuffer& layer, int x0, int y0, Rows& at) {
   const FrameGrid& grid = layer.grid;
   const float* depth = layer.depth.data();
@@ -49,7 +49,7 @@ SHOAL_INLINE WideM at_edge(const Rows& at, int x, int y) {
     bend = max(bend, abs((a + b) - twice));
   };
   across(1, 0), across(0, 1), across(1, 1), across(1, -1);
-  return bend > nearest * WideF(kLeastStep);
+  return bend > nearest * WideF(kMinStep);
 }
 
 }  // namespace

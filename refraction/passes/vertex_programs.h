@@ -1,10 +1,11 @@
-// Vertex programs of the water passes: refracted and mirrored.
+// Vertex programs of the passes: direct, refracted and planar reflection; and a work item of meshlets through one.
 #pragma once
 
 #include "raster/cull.h"
 #include "raster/front_end.h"
 #include "refraction/broad/broad_phase.h"
-#include "refraction/frame_data.h"
+#include "raster/pass_bins.h"
+#include "refraction/data/water_pass.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -34,37 +35,37 @@ struct DirectProgram {
   }
 };
 
-// What both water passes share: the world plane that geometry is clipped at. Decided per point by the same expression
+// The world plane that both passes of a body clip geometry at. Decided per point by the same expression
 // as the clipper's, so a triangle that counts as inside is never cut.
 struct ClippedByWater {
   static constexpr bool kWarped = true;
   const WaterPass& water;
   const View& view;
 
-  SHOAL_INLINE Plane clip_plane() const { return water.keep; }
+  SHOAL_INLINE Plane clip_plane() const { return water.clip_plane; }
   SHOAL_INLINE WideM inside(Vec3<WideF> p) const {
-    return dot(broadcast<WideF>(water.keep.normal_world), p) + WideF(water.keep.offset_m) >= WideF(0.0f);
+    return dot(broadcast<WideF>(water.clip_plane.normal_world), p) + WideF(water.clip_plane.offset_m) >= WideF(0.0f);
   }
   SHOAL_INLINE bool meshlet_inside(const Meshlet& meshlet) const {
-    const BoxRange range = box_range(water.keep, meshlet.bounds_min_world, meshlet.bounds_max_world);
-    return range.lo > 1e-5f * (abs(range.hi) + abs(water.keep.offset_m));
+    const BoxRange range = box_range(water.clip_plane, meshlet.bounds_min_world, meshlet.bounds_max_world);
+    return range.lo > 1e-5f * (abs(range.hi) + abs(water.clip_plane.offset_m));
   }
   SHOAL_INLINE bool all_clipped(Vec3f lo, Vec3f hi) const {
-    const BoxRange range = box_range(water.keep, lo, hi);
-    return range.hi < -1e-5f * (abs(range.lo) + abs(water.keep.offset_m));
+    const BoxRange range = box_range(water.clip_plane, lo, hi);
+    return range.hi < -1e-5f * (abs(range.lo) + abs(water.clip_plane.offset_m));
   }
 };
 
 // The broad phase as a vertex program: every vertex at its virtual position, edges split until they are straight to
 // kEdgeThresholdPx.
 struct RefractedProgram : ClippedByWater {
-  // Out of line: the front end asks for vertices in several places, and the solver is long.
+  // Out of line, because the solver is long and the front end has several callers.
   __attribute__((noinline)) ClipVertex<WideF> vertex(Vec3<WideF> position_world) const {
-    return project(view, virtual_position(water.map, position_world));
+    return project(view, virtual_position(water.optics->map, position_world));
   }
   SHOAL_INLINE bool box_outside_view(Vec3f lo, Vec3f hi) const {
     Vec3f virtual_lo, virtual_hi;
-    virtual_bounds(water.map, lo, hi, virtual_lo, virtual_hi);
+    virtual_bounds(water.optics->map, lo, hi, virtual_lo, virtual_hi);
     return box_outside(water.frustum, virtual_lo, virtual_hi);
   }
   bool meshlet_outside(const Meshlet& meshlet) const {
@@ -72,11 +73,11 @@ struct RefractedProgram : ClippedByWater {
            box_outside_view(meshlet.bounds_min_world, meshlet.bounds_max_world);
   }
   bool meshlet_bends(const Meshlet& meshlet) const {
-    return meshlet_deviation_bound_px(water.map, view, meshlet.bounds_min_world, meshlet.bounds_max_world,
+    return meshlet_deviation_bound_px(water.optics->map, view, meshlet.bounds_min_world, meshlet.bounds_max_world,
                                     meshlet.longest_edge_m) > kEdgeThresholdPx;
   }
   __attribute__((noinline)) WideM edge_bends(Vec3<WideF> a, Vec3<WideF> b) const {
-    return edge_deviation_px(water.map, view, a, b) > WideF(kEdgeThresholdPx);
+    return edge_deviation_px(water.optics->map, view, a, b) > WideF(kEdgeThresholdPx);
   }
 };
 
@@ -103,24 +104,24 @@ struct MappedProgram : ClippedByWater {
            box_outside_view(meshlet.bounds_min_world, meshlet.bounds_max_world);
   }
   bool meshlet_bends(const Meshlet& meshlet) const {
-    return splits && meshlet_deviation_bound_px(water.optics, view, meshlet.bounds_min_world, meshlet.bounds_max_world,
+    return splits && meshlet_deviation_bound_px(water.optics->exact, view, meshlet.bounds_min_world, meshlet.bounds_max_world,
                                               meshlet.longest_edge_m) > kEdgeThresholdPx;
   }
   __attribute__((noinline)) WideM edge_bends(Vec3<WideF> a, Vec3<WideF> b) const {
     if (!splits) return mask_from_bits(0);
-    return edge_deviation_px(water.optics, view, a, b) > WideF(kEdgeThresholdPx);
+    return edge_deviation_px(water.optics->exact, view, a, b) > WideF(kEdgeThresholdPx);
   }
 };
 
-// The scene mirrored in the plane, for the eye under water (total internal reflection).
-struct MirroredProgram : ClippedByWater {
+// The planar reflection pass: the scene mirrored in the plane.
+struct ReflectedProgram : ClippedByWater {
   template <class F>
   SHOAL_INLINE ClipVertex<F> vertex(Vec3<F> position_world) const {
-    return project(view, mirrored_position(water.optics, position_world));
+    return project(view, mirrored_position(water.optics->exact, position_world));
   }
   SHOAL_INLINE bool box_outside_view(Vec3f lo, Vec3f hi) const {
-    const Vec3f centre = mirrored_position(water.optics, (lo + hi) * 0.5f), half = (hi - lo) * 0.5f,
-                n = water.optics.normal;
+    const Vec3f centre = mirrored_position(water.optics->exact, (lo + hi) * 0.5f), half = (hi - lo) * 0.5f,
+                n = water.optics->exact.normal;
     // Rows of I - 2 n n^T, absolute.
     auto reach = [&](float a, float b, float c) { return abs(a) * half.x + abs(b) * half.y + abs(c) * half.z; };
     const Vec3f extent{reach(1.0f - 2.0f * n.x * n.x, 2.0f * n.x * n.y, 2.0f * n.x * n.z),
@@ -136,5 +137,26 @@ struct MirroredProgram : ClippedByWater {
   SHOAL_INLINE bool meshlet_bends(const Meshlet&) const { return false; }
   SHOAL_INLINE WideM edge_bends(Vec3<WideF>, Vec3<WideF>) const { return mask_from_bits(0); }
 };
+
+// One work item of a pass: a run of the scene's meshlets by the pass's vertex program into its bins.
+template <class Program>
+SHOAL_INLINE void run_work_item(const GeometryView& geometry, const Program& program, const PassSettings& pass,
+                                PassBins& bins, std::size_t work_item) {
+  const std::uint32_t first = static_cast<std::uint32_t>(work_item) * bins.meshlets_per_work_item;
+  const std::uint32_t end = first + bins.meshlets_per_work_item;
+  FrontEnd<Program>(geometry, program, pass, bins.work_items[work_item])
+      .run(first, end < bins.meshlet_count ? end : bins.meshlet_count, kNoId);
+}
+
+// The same of a list of meshlets.
+//   meshlets  [bins.meshlet_count]
+template <class Program>
+void run_work_item(const GeometryView& geometry, const Program& program, const PassSettings& pass,
+                   const std::uint32_t* meshlets, PassBins& bins, std::size_t work_item) {
+  const std::uint32_t first = static_cast<std::uint32_t>(work_item) * bins.meshlets_per_work_item;
+  const std::uint32_t left = bins.meshlet_count - first;
+  const std::uint32_t count = left < bins.meshlets_per_work_item ? left : bins.meshlets_per_work_item;
+  FrontEnd<Program>(geometry, program, pass, bins.work_items[work_item]).run(meshlets + first, count);
+}
 
 }  // namespace shoal::inline SHOAL_ISA_NS

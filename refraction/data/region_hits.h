@@ -1,0 +1,54 @@
+// What the narrow phase finds for the water pixels of one 64-pixel region: scratch of a thread.
+#pragma once
+
+#include <cstdint>
+
+#include "refraction/data/water_interface.h"
+
+namespace shoal {
+
+// Ids are those of triangles; kNoId: the ray leaves the scene; kFirstWaterId + b: it crosses the surface of body b
+// first, a secondary water interface.
+struct alignas(64) HitBlock {
+  std::int32_t refracted_id[16], reflected_id[16];
+  // The triangle that the rays hit, whatever water they cross before it, and the point hit, world: filled where the scene
+  // has blended materials and the layer of that ray is not drawn. A method whose rays go to a point that it found by
+  // itself writes refracted_position in every scene.
+  std::int32_t refracted_triangle[16], reflected_triangle[16];
+  float refracted_position[3][16], reflected_position[3][16];
+};
+
+// What an image-space method fetched from the lit layer.
+struct alignas(64) FetchedBlock {
+  float radiance[3][16];        // linear, absorbed on its way to the surface
+  float position_world[3][16];  // of the point fetched; filled where it is captured
+  std::int32_t outside[16];     // 1: the place lies outside of the frame; filled where it is captured
+};
+
+// The light of rays that cross a secondary water interface.
+struct alignas(64) SecondaryBlock {
+  float radiance[3][16];
+  std::uint16_t lanes;  // that have any
+};
+
+struct RegionScratch {
+  static constexpr int kBlocks = WaterInterface::kBlocksAcross * WaterInterface::kBlocksAcross;
+  WaterInterface interface;
+  HitBlock hits[kBlocks];
+  FetchedBlock fetched[kBlocks];
+  SecondaryBlock secondary[kBlocks];
+};
+
+}  // namespace shoal
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+SHOAL_INLINE void store3(float (&to)[3][16], const Vec3<WideF>& v) { v.x.store(to[0]), v.y.store(to[1]), v.z.store(to[2]); }
+SHOAL_INLINE void store3(float (&to)[3][16], const Vec3<WideF>& v, WideM lanes) {
+  store_masked(to[0], v.x, lanes), store_masked(to[1], v.y, lanes), store_masked(to[2], v.z, lanes);
+}
+SHOAL_INLINE Vec3<WideF> load3(const float (&from)[3][16]) {
+  return {WideF::load(from[0]), WideF::load(from[1]), WideF::load(from[2])};
+}
+
+}  // namespace shoal::inline SHOAL_ISA_NS

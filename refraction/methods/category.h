@@ -1,0 +1,67 @@
+// What a method may use, and which inputs its narrow phase therefore receives.
+#pragma once
+
+#include <cstdint>
+
+#include "refraction/data/layer_view.h"
+#include "refraction/data/method_state.h"
+#include "refraction/data/pixel_rays.h"
+#include "refraction/data/targets.h"
+#include "scene/scene_view.h"
+#include "trace/trace_view.h"
+
+namespace shoal {
+
+// kRaster: rasterized buffers alone. kVolume: rays marched through a voxel grid. kHybrid: rays against the BVH.
+// kTraced: rays alone.
+enum class MethodCategory : std::uint8_t { kRaster, kVolume, kHybrid, kTraced };
+const char* category_name(MethodCategory category);
+
+// Inputs of every narrow phase: one body of water, one 64-pixel region.
+struct RasterNarrowIn {
+  const ViewState& view;
+  const FrameGrids& grids;
+  const WaterOptics& optics;
+  const WaterInterface& interface;  // of the region
+  const LayerView& layer;           // the refracted layer, where the method has it drawn
+  const LitLayer& lit;              // the same, lit: of an image-space method, else empty
+  const MethodState& state;
+  bool wants_positions;             // hits are to be written with their positions (HitBlock)
+};
+// And the triangles that a voxel grid refers to.
+struct VolumeNarrowIn : RasterNarrowIn {
+  const GeometryView& geometry;
+};
+// And the scene and the BVH.
+struct HybridNarrowIn : RasterNarrowIn {
+  const SceneView& scene;
+  const TraceView& trace;
+  const VisibilityBuffer& refracted;  // the layer whole, for its edges
+  PixelRaysFunction rays;             // that the water pixels follow
+};
+
+// The narrow phase's input by category: the type is what keeps a raster method from the BVH.
+template <MethodCategory>
+struct NarrowInOf;
+template <>
+struct NarrowInOf<MethodCategory::kRaster> {
+  using Type = RasterNarrowIn;
+};
+template <>
+struct NarrowInOf<MethodCategory::kVolume> {
+  using Type = VolumeNarrowIn;
+};
+template <>
+struct NarrowInOf<MethodCategory::kHybrid> {
+  using Type = HybridNarrowIn;
+};
+template <MethodCategory category>
+using NarrowIn = typename NarrowInOf<category>::Type;
+
+// What a narrow phase writes, by block of the region.
+struct NarrowOut {
+  HitBlock* hits;
+  FetchedBlock* fetched;  // of image-space methods
+};
+
+}  // namespace shoal
