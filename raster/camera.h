@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "core/ray.h"
 #include "core/vec.h"
 #include "core/wide/isa_select.h"
 
@@ -45,12 +46,6 @@ template <class F>
 struct ClipVertex {
   F x, y;  // pixels times w, relative to the frame's centre
   F z, w;  // z = near (perspective), or the depth itself (orthographic, w = 1)
-};
-
-template <class F>
-struct Ray {
-  Vec3<F> origin_world;
-  Vec3<F> direction_world;  // not unit: see View
 };
 
 //   camera     world

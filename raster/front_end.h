@@ -16,28 +16,8 @@
 #include "core/wide/lanes.h"
 #include "core/wide/lookup.h"
 #include "raster/clip.h"
-#include "raster/geometry.h"
-#include "shading/material.h"
+#include "raster/geometry_view.h"
 #include "raster/setup.h"
-
-namespace shoal {
-
-// Raw views of the geometry, so that kernels touch no container.
-struct GeometryView {
-  const float *x_world, *y_world, *z_world;
-  const std::uint8_t* corner[3];
-  const Meshlet* meshlets;
-  const VertexRecord* vertices;
-  const Vec4f* colors;  // null: none
-  const Geometry::TriangleRecord* triangles;
-  const Material* materials;
-  const Texture* textures;
-  const Vec2f* uvs1 = nullptr;      // null: none
-  const Vec4f* tangents = nullptr;  // null: none
-};
-
-}  // namespace shoal
-
 #include "raster/tessellate.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
@@ -45,7 +25,8 @@ namespace shoal::inline SHOAL_ISA_NS {
 template <class Program>
 class FrontEnd {
  public:
-  SHOAL_INLINE FrontEnd(const GeometryView& geometry, const Program& program, const PassSettings& pass, WorkItemBins& work_item)
+  SHOAL_INLINE FrontEnd(const GeometryView& geometry, const Program& program, const PassSettings& pass,
+                        WorkItemBins& work_item)
       : geometry_(geometry), program_(program), sink_(pass, work_item), tessellator_(program, sink_) {}
 
   // Meshlets [first, last) of the scene, in order. id_override replaces the triangle ids (a water outline's), or is
@@ -55,7 +36,7 @@ class FrontEnd {
     for (std::uint32_t c = first; c < last; ++c) {
       const Meshlet& meshlet = geometry_.meshlets[c];
       if (program_.meshlet_outside(meshlet)) continue;
-      if (sink_.pass().skip_blended && geometry_.materials[meshlet.material].alpha_mode == AlphaMode::kBlend) continue;
+      if (sink_.pass().skip_blended && geometry_.draw_states[meshlet.material].blended) continue;
       draw_meshlet(meshlet, id_override);
     }
     sink_.finish();
@@ -79,9 +60,8 @@ class FrontEnd {
   };
 
   __attribute__((noinline)) void draw_meshlet(const Meshlet& meshlet, std::int32_t id_override) {
-    const Material& material = geometry_.materials[meshlet.material];
-    const bool alpha_tested = material.alpha_mode == AlphaMode::kMask;
-    const bool two_sided = material.double_sided;
+    const DrawState& state = geometry_.draw_states[meshlet.material];
+    const bool alpha_tested = state.alpha_tested, two_sided = state.double_sided;
     sink_.work_item().triangles_in += meshlet.triangle_count;
 
     // What has to leave the fast path: triangles that reach through the world plane or bend too much.
@@ -117,8 +97,9 @@ class FrontEnd {
       const WideI i1 = load_u8(geometry_.corner[1] + meshlet.first_index + static_cast<std::uint32_t>(t));
       const WideI i2 = load_u8(geometry_.corner[2] + meshlet.first_index + static_cast<std::uint32_t>(t));
       WideM active = lane_index() < WideI(meshlet.triangle_count - t);
-      const WideI id = id_override != kNoId ? WideI(id_override)
-                                            : WideI(static_cast<std::int32_t>(meshlet.first_triangle) + t) + lane_index();
+      const WideI id = id_override != kNoId
+                           ? WideI(id_override)
+                           : WideI(static_cast<std::int32_t>(meshlet.first_triangle) + t) + lane_index();
       if (!all_fast) {
         const WideM slow =
             active & slow_lanes(world[0], world[1], world[2], i0, i1, i2, needs_clip, through_plane, bends);

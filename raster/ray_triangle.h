@@ -1,19 +1,9 @@
 // A ray against one triangle's plane, and how the hit moves from pixel to pixel.
 #pragma once
 
+#include "core/ray.h"
 #include "core/vec_lanes.h"
 #include "raster/camera.h"
-
-namespace shoal {
-
-// How a ray changes a pixel to the right (dx) and a pixel down (dy).
-template <class F>
-struct RayDifferential {
-  Vec3<F> origin_dx, origin_dy;
-  Vec3<F> direction_dx, direction_dy;
-};
-
-}  // namespace shoal
 
 namespace shoal::inline SHOAL_ISA_NS {
 

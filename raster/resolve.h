@@ -9,10 +9,10 @@
 
 #include <cstdint>
 
+#include "core/ray.h"
 #include "core/vec_lanes.h"
-#include "raster/front_end.h"
+#include "raster/geometry_view.h"
 #include "raster/ray_triangle.h"
-#include "shading/surface.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -196,28 +196,6 @@ __attribute__((noinline)) inline void resolve_attributes(const GeometryView& g, 
   if (g.colors != nullptr) resolve_color(g, id, active, u, v, out);
   if (g.uvs1 != nullptr) resolve_uv1(g, id, active, u, v, d, out);
   if (g.tangents != nullptr) resolve_tangent(g, id, active, u, v, behind, out);
-}
-
-// The coordinates that one of a material's textures is read with.
-SHOAL_INLINE UvPoint<WideF> map_point(const GeometryView& g, const PixelAttributes<WideF>& a, const UvMap& map) {
-  UvPoint<WideF> p{a.uv, a.duv_dx, a.duv_dy};
-  if (map.set == 1) {
-    const Vec2<WideF> zero = broadcast<WideF>(Vec2f{0, 0});
-    p = g.uvs1 != nullptr ? UvPoint<WideF>{a.uv1, a.duv1_dx, a.duv1_dy} : UvPoint<WideF>{zero, zero, zero};
-  }
-  return map.transformed ? transform_uv<WideF>(map, p) : p;
-}
-
-// Alpha test of the visibility pass: the covered pixels of a alpha-tested triangle that its material keeps.
-__attribute__((noinline)) inline WideM alpha_cut(const GeometryView& g, const Materials& materials,
-                                                 const Ray<WideF>& ray, const RayDifferential<WideF>& differential,
-                                                 std::int32_t id, WideM cover) {
-  PixelAttributes<WideF> a;
-  resolve_attributes(g, ray, differential, WideI(id), cover, a);
-  const Material& material = g.materials[g.triangles[id].material];
-  const UvPoint<WideF> at = map_point(g, a, material.base_color_uv);
-  const WideF alpha = surface_alpha<WideF>(material, materials, at.uv, at.duv_dx, at.duv_dy, a.color.w, cover);
-  return cover & (alpha >= WideF(material.alpha_cutoff));
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

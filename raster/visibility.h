@@ -14,6 +14,7 @@
 #include "core/blocked_image.h"
 #include "core/wide/lanes.h"
 #include "raster/bin.h"
+#include "raster/blocks.h"
 
 namespace shoal {
 
@@ -31,16 +32,6 @@ struct VisibilityBuffer {
 }  // namespace shoal
 
 namespace shoal::inline SHOAL_ISA_NS {
-
-// Lane i of a block is pixel (i & 3, i >> 2) of it.
-SHOAL_INLINE WideI block_x() { return lane_index() & WideI(3); }
-SHOAL_INLINE WideI block_y() { return lane_index() >> 2; }
-
-// One triangle as the block loops take it.
-struct EdgeSetup {
-  std::int32_t step_x[3], step_y[3];  // of the edge functions, a sub-pixel
-  std::int32_t bias[3];               // 0 where the edge is inclusive (top or left), else -1
-};
 
 // Depth plane of a triangle. depth(X, Y) = d0 + (X - x0) dx + (Y - y0) dy, clamped to the corners' range, so that
 // neither slivers nor extrapolation leave it.
@@ -295,7 +286,7 @@ class TileRaster {
           if (none(cover)) continue;
         }
         write_block_large<kAlphaTested>((x_px + x4) >> 2, (y_px + y4) >> 2, cover, plane, t.id,
-                                   farthest[(y4 >> 2) * 16 + (x4 >> 2)]);
+                                        farthest[(y4 >> 2) * 16 + (x4 >> 2)]);
       }
     }
   }

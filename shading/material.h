@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "raster/draw_state.h"
 #include "shading/environment/environment.h"
 #include "shading/textures/texture.h"
 #include "shading/textures/uv_map.h"
@@ -60,6 +61,9 @@ struct Materials {
   std::vector<Texture> textures;
 };
 
+// What the rasterizer reads of each material.
+std::vector<DrawState> draw_states(const std::vector<Material>& materials);
+
 struct DirectionalLight {
   Vec3f direction_world{0, -1, 0};  // unit, the way that the light travels
   Vec3f irradiance{1, 1, 1};        // linear, on a surface facing it (lux in glTF's terms)
@@ -82,7 +86,7 @@ struct Background {
   // kSky: a clear-day gradient between horizon and zenith, ground below, and the sun's disc and glow.
   Vec3f zenith{0.18f, 0.38f, 0.78f}, horizon{0.72f, 0.83f, 0.94f}, ground{0.35f, 0.33f, 0.30f};
   Vec3f to_sun_world{0, 1, 0};
-  Vec3f sun{0, 0, 0};  // radiance scale of disc and glow; 0 hides it
+  Vec3f sun{0, 0, 0};                              // radiance scale of disc and glow; 0 hides it
   std::shared_ptr<const Environment> environment;  // kEnvironment, and there only: never null then
 };
 

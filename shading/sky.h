@@ -23,6 +23,21 @@ template <class F>
 SHOAL_INLINE F above_horizon(F y) {
   return smooth(F(1.0f) + y * F(20.0f));
 }
+
+// The glow round the sun: a sum of powers of the cosine to it.
+struct GlowLobe {
+  float height, power;
+};
+inline constexpr GlowLobe kGlow[4] = {{0.004f, 8.0f}, {0.010f, 64.0f}, {0.03f, 512.0f}, {0.08f, 2048.0f}};
+
+// The sun's disc: 0.2665 degrees of radius (squared, radians), its edge softened over a third more.
+inline constexpr float kDiscRadius2 = 0.004651f * 0.004651f;
+
+//   chord2  squared chord between a direction and the sun's: 2 - 2 cosine
+template <class F>
+SHOAL_INLINE F sun_disc(F chord2) {
+  return smooth(F(2.3f) - chord2 * F(1.3f / kDiscRadius2));
+}
 }  // namespace sky_detail
 
 // The sky without its sun, the colour or the picture: what rough surfaces reflect (the sun reaches them as a light of
@@ -63,11 +78,48 @@ SHOAL_INLINE Vec3<F> background_radiance(const Background& background, Vec3<F> d
   const F c2 = cosine * cosine, c4 = c2 * c2, c8 = c4 * c4;
   const F c16 = c8 * c8, c32 = c16 * c16, c64 = c32 * c32;
   const F c128 = c64 * c64, c256 = c128 * c128, c512 = c256 * c256, c2048 = (c512 * c512) * (c512 * c512);
-  const F glow = (F(0.004f) * c8 + F(0.010f) * c64) + (F(0.03f) * c512 + F(0.08f) * c2048);
-  // The disc: 0.2665 degrees of radius, its edge softened over a third more.
-  constexpr float kRadius2 = 0.004651f * 0.004651f;
-  const F disc = sky_detail::smooth(F(2.3f) - chord2 * F(1.3f / kRadius2));
+  using sky_detail::kGlow;
+  const F glow =
+      (F(kGlow[0].height) * c8 + F(kGlow[1].height) * c64) + (F(kGlow[2].height) * c512 + F(kGlow[3].height) * c2048);
+  const F disc = sky_detail::sun_disc(chord2);
   return sky + broadcast<F>(s) * ((glow + disc) * sky_detail::above_horizon(direction_world.y));
 }
+
+// The background as a room takes it that does not include this one (water/rough_mirror.h).
+struct SkyView {
+  const Background& background;
+
+  static constexpr const sky_detail::GlowLobe (&kGlow)[4] = sky_detail::kGlow;
+  static constexpr float kDiscRadius2 = sky_detail::kDiscRadius2;
+
+  template <class F>
+  SHOAL_INLINE Vec3<F> radiance(Vec3<F> direction_world) const {
+    return background_radiance<F>(background, direction_world);
+  }
+  template <class F>
+  SHOAL_INLINE Vec3<F> gradient(Vec3<F> direction_world) const {
+    return background_gradient<F>(background, direction_world);
+  }
+  // The mean of an environment over a GGX lobe; only where there is an environment.
+  template <class F>
+  SHOAL_INLINE Vec3<F> lobe(Vec3<F> direction_world, F roughness) const {
+    return environment_lobe<F>(*background.environment, direction_world, roughness);
+  }
+  SHOAL_INLINE bool has_environment() const { return background.kind == Background::Kind::kEnvironment; }
+
+  // The sun of a sky; the others are only of use where there is one.
+  SHOAL_INLINE bool has_sun() const {
+    const Vec3f s = background.sun;
+    return background.kind == Background::Kind::kSky && (s.x != 0.0f || s.y != 0.0f || s.z != 0.0f);
+  }
+  SHOAL_INLINE Vec3f sun() const { return background.sun; }
+  SHOAL_INLINE Vec3f to_sun_world() const { return background.to_sun_world; }
+  // The share of the sun that is above the horizon, 0 to 1.
+  SHOAL_INLINE float sun_risen() const { return sky_detail::above_horizon(background.to_sun_world.y); }
+  template <class F>
+  SHOAL_INLINE F disc(F chord2) const {
+    return sky_detail::sun_disc(chord2);
+  }
+};
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -45,7 +45,7 @@ namespace shoal::inline SHOAL_ISA_NS {
 // Source: glTF 2.0, 3.9 (materials): factors, texture and COLOR_0 multiply. Differs: a double-sided material's normal
 // is turned by the shading normal's side, not by the triangle's. The other textures: shading/surface_maps.h.
 template <class F>
-SHOAL_INLINE SurfaceSample<F> make_surface(const Material& material, const Materials& materials, Vec3<F> position,
+SHOAL_INLINE SurfaceSample<F> make_surface(const Material& material, const Texture* textures, Vec3<F> position,
                                            Vec3<F> normal, Vec2<F> uv, Vec2<F> duv_dx, Vec2<F> duv_dy,
                                            Vec4<F> vertex_color, Vec3<F> view_direction, MaskOf<F> active) {
   SurfaceSample<F> s;
@@ -58,7 +58,7 @@ SHOAL_INLINE SurfaceSample<F> make_surface(const Material& material, const Mater
   Vec4<F> color = {F(factor.x) * vertex_color.x, F(factor.y) * vertex_color.y, F(factor.z) * vertex_color.z,
                    F(factor.w) * vertex_color.w};
   if (material.base_color_texture != kNoTexture) {
-    const Texture& texture = materials.textures[static_cast<std::size_t>(material.base_color_texture)];
+    const Texture& texture = textures[static_cast<std::size_t>(material.base_color_texture)];
     const Vec4<F> texel = sample<F>(texture, material.base_color_sampler, uv, duv_dx, duv_dy, active);
     color = {color.x * texel.x, color.y * texel.y, color.z * texel.z, color.w * texel.w};
   }
@@ -73,11 +73,11 @@ SHOAL_INLINE SurfaceSample<F> make_surface(const Material& material, const Mater
 
 // Alpha alone, for the visibility pass: the same bits as make_surface's before opaque materials ignore it.
 template <class F>
-SHOAL_INLINE F surface_alpha(const Material& material, const Materials& materials, Vec2<F> uv, Vec2<F> duv_dx,
+SHOAL_INLINE F surface_alpha(const Material& material, const Texture* textures, Vec2<F> uv, Vec2<F> duv_dx,
                              Vec2<F> duv_dy, F vertex_alpha, MaskOf<F> active) {
   const F alpha = F(material.base_color.w) * vertex_alpha;
   if (material.base_color_texture == kNoTexture) return alpha;
-  const Texture& texture = materials.textures[static_cast<std::size_t>(material.base_color_texture)];
+  const Texture& texture = textures[static_cast<std::size_t>(material.base_color_texture)];
   return alpha * sample<F>(texture, material.base_color_sampler, uv, duv_dx, duv_dy, active).w;
 }
 

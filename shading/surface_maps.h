@@ -2,6 +2,7 @@
 #pragma once
 
 #include "raster/resolve.h"
+#include "shading/material_uv.h"
 #include "shading/surface.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
@@ -36,13 +37,13 @@ SHOAL_INLINE Vec3<F> mapped_normal(Vec3<F> normal, Vec3<F> tangent, F handedness
 //   a       of the pixels; `s`: what make_surface made of them
 //   active  lanes that are wanted
 // Source: glTF 2.0, 3.9.2 to 3.9.4; KHR_materials_ior.
-SHOAL_INLINE void apply_maps(const GeometryView& g, const Material& material, const Materials& materials,
+SHOAL_INLINE void apply_maps(const GeometryView& g, const Material& material, const Texture* textures,
                              const PixelAttributes<WideF>& a, Vec3<WideF> view_direction, WideM active,
                              SurfaceSample<WideF>& s) {
   const auto texel = [&](const MaterialMap& map) SHOAL_LAMBDA {
     const UvPoint<WideF> at = map_point(g, a, map.uv);
-    return sample<WideF>(materials.textures[static_cast<std::size_t>(map.texture)], map.sampler, at.uv, at.duv_dx,
-                         at.duv_dy, active);
+    return sample<WideF>(textures[static_cast<std::size_t>(map.texture)], map.sampler, at.uv, at.duv_dx, at.duv_dy,
+                         active);
   };
   s.f0_dielectric = WideF(dielectric_f0(material.ior));
   if (material.metallic_roughness.texture != kNoTexture) {

@@ -1,7 +1,6 @@
-// Light at a smooth dielectric interface and in an absorbing medium. eta is n_incident / n_transmitted, always.
+// Light at a smooth dielectric interface. eta is n_incident / n_transmitted, always.
 #pragma once
 
-#include "core/math.h"
 #include "core/vec_lanes.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
@@ -79,20 +78,6 @@ SHOAL_INLINE F fresnel_schlick(F cos_incident, F eta) {
   const F normal = (eta - F(1.0f)) / (eta + F(1.0f)), r0 = normal * normal;
   const F c = F(1.0f) - cosine, c2 = c * c;
   return r0 + (F(1.0f) - r0) * (c2 * c2 * c);
-}
-
-// Beer and Lambert: what is left of each colour after a path.
-//   absorption_per_m  >= 0, 1/m;  path_m  >= 0, metres
-// Returns exp(-absorption path), 1 at path 0.
-// Error: relative 2e-7 (1 + absorption path) (test_optics.cpp).
-template <class F>
-SHOAL_INLINE F transmittance(F absorption_per_m, F path_m) {
-  return det_exp2(absorption_per_m * path_m * F(-1.44269504f));
-}
-template <class F>
-SHOAL_INLINE Vec3<F> transmittance(Vec3<F> absorption_per_m, F path_m) {
-  return {transmittance(absorption_per_m.x, path_m), transmittance(absorption_per_m.y, path_m),
-          transmittance(absorption_per_m.z, path_m)};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

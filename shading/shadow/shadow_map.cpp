@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/wide/lanes.h"
-#include "refraction/frame_data.h"
-#include "refraction/kernels.h"
+#include "core/vec_lanes.h"
+#include "raster/pass_bins.h"
+#include "shading/shadow/shadow_pass.h"
 
 namespace shoal {
 
@@ -42,9 +42,9 @@ struct Extent {
     empty = false;
   }
 };
-Extent extent_of(const RenderScene& scene, const std::vector<SunBend>& bends, const SunAxes& axes) {
+Extent extent_of(const std::vector<Meshlet>& meshlets, const std::vector<SunBend>& bends, const SunAxes& axes) {
   Extent extent;
-  for (const Meshlet& meshlet : scene.geometry.meshlets) {
+  for (const Meshlet& meshlet : meshlets) {
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3f lo = meshlet.bounds_min_world, hi = meshlet.bounds_max_world;
       const Vec3f p{(corner & 1) != 0 ? hi.x : lo.x, (corner & 2) != 0 ? hi.y : lo.y, (corner & 4) != 0 ? hi.z : lo.z};
@@ -55,9 +55,9 @@ Extent extent_of(const RenderScene& scene, const std::vector<SunBend>& bends, co
 }
 
 // The dense part of the scene across the sun's rays, and all of its water: few meshlets are out of it, on any side.
-Extent dense_part(const RenderScene& scene, const Extent& whole, const SunAxes& axes) {
+Extent dense_part(const SunShadowIn& in, const Extent& whole, const SunAxes& axes) {
   constexpr float kPadding = 0.15f;  // of its width, on each side
-  const std::vector<Meshlet>& meshlets = scene.geometry.meshlets;
+  const std::vector<Meshlet>& meshlets = in.meshlets;
   const std::size_t few = meshlets.size() / 20;
   Extent part = whole;
   std::vector<float> places(meshlets.size());
@@ -69,8 +69,7 @@ Extent dense_part(const RenderScene& scene, const Extent& whole, const SunAxes& 
   };
   middle(axes.right, part.lo.x, part.hi.x);
   middle(axes.up, part.lo.y, part.hi.y);
-  for (const WaterBody& body : scene.waters)
-    for (const Vec3f p : body.outline) part.add(axes, p);
+  for (const Vec3f p : in.water_outline) part.add(axes, p);
   const Vec3f span = part.hi - part.lo;
   const float pad = std::fmax(span.x, span.y) * kPadding;
   part.lo = max(part.lo - Vec3f{pad, pad, 0}, whole.lo);
@@ -113,11 +112,10 @@ bool same_plane(const SunBend& a, const SunBend& b) {
                                           std::fabs(dot(a.origin - b.origin, a.normal)) < 1e-5f));
 }
 
-// One bend a map, the straight one first, and each body's.
-std::vector<SunBend> collect_bends(const RenderScene& scene, Vec3f direction, std::vector<std::int32_t>& map_of_body) {
+// One bend for each map, the straight one first, and the map of each body.
+std::vector<SunBend> collect_bends(const std::vector<SunBend>& of_bodies, std::vector<std::int32_t>& map_of_body) {
   std::vector<SunBend> bends(1);
-  for (const WaterBody& body : scene.waters) {
-    const SunBend bend = bend_of(body, direction);
+  for (const SunBend& bend : of_bodies) {
     std::size_t at = 0;
     while (at < bends.size() && !same_plane(bends[at], bend)) ++at;
     if (at == bends.size() && at < kMaxSunMaps) bends.push_back(bend);
@@ -126,10 +124,27 @@ std::vector<SunBend> collect_bends(const RenderScene& scene, Vec3f direction, st
   return bends;
 }
 
+// The materials as the sun's passes draw them.
+struct Casters {
+  std::vector<DrawState> draw_states;  // all double-sided
+  std::vector<std::uint8_t> casts;     // 0: unlit or blended
+};
+Casters make_casters(const SunShadowIn& in) {
+  const std::vector<Material> materials(in.view.materials, in.view.materials + in.material_count);
+  Casters casters;
+  casters.draw_states = draw_states(materials);
+  for (DrawState& state : casters.draw_states) state.double_sided = true;
+  for (const Material& m : materials)
+    casters.casts.push_back(m.unlit || m.alpha_mode == AlphaMode::kBlend ? std::uint8_t{0} : std::uint8_t{1});
+  return casters;
+}
+
 // The passes of a map: all of the scene, or what lies above the plane and what lies below it.
-std::vector<ShadowPass> passes_of(const ShadowMap& map, const GeometryView& casters) {
+std::vector<ShadowPass> passes_of(const ShadowMap& map, const GeometryView& geometry, const Casters& casters) {
   ShadowPass whole;
-  whole.geometry = casters;
+  whole.geometry = geometry;
+  whole.geometry.draw_states = casters.draw_states.data();
+  whole.casts = casters.casts.data();
   whole.map = &map;
   whole.pass.width_px = whole.pass.height_px = map.grid.width_px;
   whole.pass.centre_px = map.view.centre_px;
@@ -174,21 +189,24 @@ void measure_steepness(ShadowMap& map, int cell_row) {
   }
 }
 
-void draw_map(const FrameData& f, ShadowMap& map, const GeometryView& casters, VisibilityBuffer& scratch,
-              const FrameKernels& kernels, ThreadPool& pool) {
-  const std::vector<ShadowPass> passes = passes_of(map, casters);
+void draw_map(const SunShadowIn& in, const Casters& casters, ShadowMap& map, VisibilityBuffer& scratch,
+              ThreadPool& pool, const ShadowKernels& kernels) {
+  const std::vector<ShadowPass> passes = passes_of(map, in.view.geometry, casters);
   std::vector<PassBins> bins(passes.size());
   for (std::size_t i = 0; i < passes.size(); ++i) {
-    bins[i].meshlet_count = f.bins.meshlet_count;
-    bins[i].meshlets_per_work_item = f.bins.meshlets_per_work_item;
-    bins[i].work_items.resize(f.bins.work_items.size());
-    pool.for_each(bins[i].work_items.size(),
-                  [&](std::size_t work_item, int) { kernels.shadow_front_end(passes[i], bins[i], work_item); });
+    PassBins& of_pass = bins[i] = make_bins(in.meshlets.size());
+    pool.for_each(of_pass.work_items.size(), [&](std::size_t work_item, int) {
+      const std::uint32_t first = static_cast<std::uint32_t>(work_item) * of_pass.meshlets_per_work_item;
+      const std::uint32_t last = std::min(first + of_pass.meshlets_per_work_item, of_pass.meshlet_count);
+      kernels.shadow_front_end({passes[i], first, last}, of_pass.work_items[work_item]);
+    });
   }
   scratch.resize(map.grid);
   const BinGrid& grid = passes[0].pass.grid;
   const std::size_t tiles = static_cast<std::size_t>(grid.tiles_x) * static_cast<std::size_t>(grid.tiles_y);
-  pool.for_each(tiles, [&](std::size_t tile, int) { kernels.draw_shadow_tile(f, passes, bins, scratch, tile); });
+  pool.for_each(tiles, [&](std::size_t tile, int) {
+    kernels.draw_shadow_tile({in.view, passes, bins, tile}, scratch);
+  });
   map.depth = std::move(scratch.depth);
   scratch.depth = AlignedArray<float>();
   const std::size_t cells = static_cast<std::size_t>(map.grid.width_px / kShadowCell);
@@ -198,52 +216,30 @@ void draw_map(const FrameData& f, ShadowMap& map, const GeometryView& casters, V
 
 }  // namespace
 
-// Source: Snell's law; the shear is the difference of both rays' ways along the plane a metre of depth.
-SunBend bend_of(const WaterBody& body, Vec3f direction) {
-  SunBend bend;
-  const float cosine = -dot(direction, body.normal), eta = 1.0f / body.ior;
-  const float cosine2_below = 1.0f - eta * eta * (1.0f - cosine * cosine);
-  if (cosine < kMinSunCosine || cosine2_below < kMinSunCosine * kMinSunCosine || body.ior == 1.0f) return bend;
-  const float cosine_below = std::sqrt(cosine2_below);
-  bend.bent = true;
-  bend.origin = body.origin;
-  bend.normal = body.normal;
-  bend.refracted_world = normalize(direction * eta + body.normal * (eta * cosine - cosine_below));
-  const Vec3f along = direction + body.normal * cosine;  // of the incident ray, along the plane
-  bend.shear = along * (1.0f / cosine - eta / cosine_below);
-  return bend;
-}
-
-void build_shadows(FrameData& f, const FrameKernels& kernels, ThreadPool& pool) {
-  SunShadows& shadows = f.shadows;
-  shadows = SunShadows();
-  const RenderScene& scene = *f.scene;
-  if (f.settings.shadows != Shadows::kMap || scene.lighting.directional.empty()) return;
-  const Vec3f direction = scene.lighting.directional[0].direction_world;
-  const SunAxes axes = sun_axes(direction);
-  const std::vector<SunBend> bends = collect_bends(scene, direction, shadows.map_of_body);
-  const Extent extent = extent_of(scene, bends, axes);
+void build_shadows(const SunShadowIn& in, SunShadows& out, ThreadPool& pool, const ShadowKernels& kernels) {
+  out = SunShadows();
+  if (in.view.lighting->directional.empty()) return;
+  const SunAxes axes = sun_axes(in.view.lighting->directional[0].direction_world);
+  const std::vector<SunBend> bends = collect_bends(in.bends, out.map_of_body);
+  const Extent extent = extent_of(in.meshlets, bends, axes);
   if (extent.empty) return;
 
-  std::vector<Material> both_sided = scene.materials.materials;
-  for (Material& m : both_sided) m.double_sided = true;
-  GeometryView casters = f.geometry;
-  casters.materials = both_sided.data();
   std::vector<ShadowMap> levels;
-  const Extent dense = dense_part(scene, extent, axes);
+  const Extent dense = dense_part(in, extent, axes);
   const bool two_levels = width_of(dense) * 2 < width_of(extent);
-  levels.push_back(place_map(two_levels ? dense : extent, axes, f.settings.shadow_map_px));
-  if (two_levels) levels.push_back(place_map(extent, axes, f.settings.shadow_map_px / 2));
+  levels.push_back(place_map(two_levels ? dense : extent, axes, in.size_px));
+  if (two_levels) levels.push_back(place_map(extent, axes, in.size_px / 2));
 
+  const Casters casters = make_casters(in);
   VisibilityBuffer scratch;
-  shadows.maps.resize(bends.size());
+  out.maps.resize(bends.size());
   for (std::size_t i = 0; i < bends.size(); ++i) {
     for (const ShadowMap& level : levels) {
       ShadowMap map;
       map.view = level.view, map.grid = level.grid, map.texel_m = level.texel_m, map.bias = level.bias;
       map.bend = bends[i];
-      draw_map(f, map, casters, scratch, kernels, pool);
-      shadows.maps[i].levels.push_back(std::move(map));
+      draw_map(in, casters, map, scratch, pool, kernels);
+      out.maps[i].levels.push_back(std::move(map));
     }
   }
 }

@@ -16,18 +16,11 @@
 
 #include "core/blocked_image.h"
 #include "core/thread_pool.h"
-#include "raster/clip.h"
-#include "raster/front_end.h"
+#include "raster/camera.h"
+#include "shading/light_medium.h"
+#include "shading/shading_view.h"
 
 namespace shoal {
-
-// How sunlight goes on under one plane.
-struct SunBend {
-  bool bent = false;      // false: straight on
-  Vec3f origin, normal;   // of the plane; the sun is on the normal's side
-  Vec3f shear;            // metres along the plane a metre of depth
-  Vec3f refracted_world;  // unit, the way that the light travels below
-};
 
 struct ShadowMap {
   View view;  // orthographic, from the sun
@@ -49,37 +42,33 @@ struct SunMap {
 
 struct SunShadows {
   std::vector<SunMap> maps;               // [0]: straight rays; empty where nothing casts
-  std::vector<std::int32_t> map_of_body;  // [bodies]
-  SHOAL_INLINE const SunMap* air() const { return maps.empty() ? nullptr : &maps[0]; }
-  SHOAL_INLINE const SunMap* of_body(std::size_t body) const {
-    return maps.empty() ? nullptr : &maps[static_cast<std::size_t>(map_of_body[body])];
+  std::vector<std::int32_t> map_of_body;  // [bodies] into maps; empty where build_shadows drew none
+  // The map of a body's water: LightMedium::sun_map.
+  SHOAL_INLINE std::int32_t map_index(std::size_t body) const {
+    return body < map_of_body.size() ? map_of_body[body] : 0;
   }
-};
-
-// Part of the scene drawn into a map: all of it, or what lies on one side of the water.
-struct ShadowPass {
-  GeometryView geometry;  // materials seen from both sides
-  const ShadowMap* map = nullptr;
-  PassSettings pass;
-  bool clipped = false;
-  Plane keep{{0, 0, 0}, 0};  // where clipped
-  bool sheared = false;      // the part below the plane
 };
 
 // Bodies beyond this many planes count as air for shadows: a map is big.
 inline constexpr std::size_t kMaxSunMaps = 8;
-// Planes that the sun grazes more than this (cosine) bend nothing: their shear would have no bound.
-inline constexpr float kMinSunCosine = 0.05f;
 
-struct FrameData;
-struct FrameKernels;
-struct WaterBody;
+// What the maps are drawn from. Everything that it refers to outlives the call.
+struct SunShadowIn {
+  const ShadingView& view;                  // geometry, materials, textures and lights; its own shadows are not read
+  const std::vector<Meshlet>& meshlets;     // of the geometry
+  std::size_t material_count;               // of view.materials
+  const std::vector<SunBend>& bends;        // one a body of water, for the first directional light
+  const std::vector<Vec3f>& water_outline;  // world: all vertices of all bodies' outlines, in any order
+  int size_px;                              // texels a side of a map's finest level: a multiple of 64
+};
 
-// Sunlight along `direction` (unit, the way it travels) at a body's plane.
-SunBend bend_of(const WaterBody& body, Vec3f direction);
+struct ShadowKernels;
 
-// Draws the maps of frame.scene into frame.shadows: none for `--shadows off`, or without a directional light. What is
-// unlit or blended casts no shadow; all else does from both sides.
-void build_shadows(FrameData& frame, const FrameKernels& kernels, ThreadPool& pool);
+// Draws the sun's maps.
+//   in       see there; without a directional light, or without any meshlet, there are no maps
+//   out      replaced: one map for the air and one for each different plane of water, and the map of each body
+//   kernels  of one instruction set (shading/shadow/shadow_pass.h); the result does not depend on which
+// Every triangle casts, from both sides, but those of unlit and of blended materials.
+void build_shadows(const SunShadowIn& in, SunShadows& out, ThreadPool& pool, const ShadowKernels& kernels);
 
 }  // namespace shoal
