@@ -78,7 +78,7 @@ class SceneThen {
 };
 
 MetricSettings metric_settings(const CompareOptions& options) {
-  return {{options.pixels_per_degree, supported_isas().front()}, options.yee};
+  return {{options.pixels_per_degree, best_isa()}, options.yee};
 }
 
 // --- metrics.json ---------------------------------------------------------------------------------------------------

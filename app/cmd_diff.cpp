@@ -174,7 +174,7 @@ std::optional<Flip> flip_pictures(const DiffArguments& arguments, const Picture&
   Flip flip;
   if (arguments.ppd) flip.ppd = read_float("--ppd", *arguments.ppd, 1, 10000);
   ThreadPool pool(available_threads());
-  const FlipSettings settings{flip.ppd, supported_isas().front()};
+  const FlipSettings settings{flip.ppd, best_isa()};
   if (a.format == Picture::Format::kPng) {
     flip.error = ldr_flip(*reference, *test, settings, pool);
   } else {

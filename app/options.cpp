@@ -199,7 +199,8 @@ Isa read_isa(const std::string& text) {
     runs.emplace_back(isa_name(isa));
   }
   if (asked) {
-    throw UsageError(fmt::format("--isa '{}': this machine cannot run it; expected one of: {}", text, join(runs)));
+    const char* why = is_built(*asked) ? "this machine cannot run it" : "this build does not have it";
+    throw UsageError(fmt::format("--isa '{}': {}; expected one of: {}", text, why, join(runs)));
   }
   unknown("--isa", text, runs);
 }
@@ -219,7 +220,7 @@ void read_frame_settings(const RawOptions& raw, FrameSettings& frame) {
   if (raw.spp) frame.spp = read_count("--spp", *raw.spp, 1, kMaxSpp);
   if (raw.threads) frame.threads = read_count("--threads", *raw.threads, 1, kMaxThreads);
   if (raw.tile) frame.tile_px = read_tile(*raw.tile);
-  frame.isa = raw.isa ? read_isa(*raw.isa) : supported_isas().front();
+  frame.isa = raw.isa ? read_isa(*raw.isa) : best_isa();
   if (raw.anisotropy) frame.anisotropy = read_count("--anisotropy", *raw.anisotropy, 1, 16);
   if (raw.shadows) {
     frame.shadows = static_cast<Shadows>(read_choice("--shadows", *raw.shadows, {"off", "map", "rays"}));

@@ -14,7 +14,7 @@ namespace shoal::bench {
 
 namespace {
 
-Isa chosen_isa = Isa::kScalar;
+Isa chosen_isa{};  // set by take_isa
 double measured_hz = 0;
 
 // Long enough for a sleeping core to speed up, in runs short enough that some are not interrupted.
@@ -96,7 +96,7 @@ void count_items(benchmark::State& state, const std::string& what, double work_i
 
 // Takes --isa=NAME out of the arguments; false where it names nothing that runs here.
 static bool take_isa(std::vector<char*>& arguments) {
-  chosen_isa = supported_isas().front();
+  chosen_isa = best_isa();
   for (std::size_t i = 1; i < arguments.size(); ++i) {
     if (std::strncmp(arguments[i], "--isa=", 6) != 0) continue;
     const std::optional<Isa> named = parse_isa(arguments[i] + 6);

@@ -4,54 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/isa.h"
-#include "shading/surface.h"
 #include "bench/solvers/path_solvers.h"
+#include "core/isa_dispatch.h"
+#include "shading/surface.h"
 #include "refraction/frame_data.h"
-
-// X(Type, name, Isa's constant, namespace) for every instruction set that is built.
-#if defined(SHOAL_BUILDS_SSE42)
-#define SHOAL_BENCH_SSE42(X, Type, name) X(Type, name, kSse42, isa_sse42)
-#else
-#define SHOAL_BENCH_SSE42(X, Type, name)
-#endif
-#if defined(SHOAL_BUILDS_AVX2)
-#define SHOAL_BENCH_AVX2(X, Type, name) X(Type, name, kAvx2, isa_avx2)
-#else
-#define SHOAL_BENCH_AVX2(X, Type, name)
-#endif
-#if defined(SHOAL_BUILDS_AVX512)
-#define SHOAL_BENCH_AVX512(X, Type, name) X(Type, name, kAvx512, isa_avx512)
-#else
-#define SHOAL_BENCH_AVX512(X, Type, name)
-#endif
-#if defined(SHOAL_BUILDS_NEON)
-#define SHOAL_BENCH_NEON(X, Type, name) X(Type, name, kNeon, isa_neon)
-#else
-#define SHOAL_BENCH_NEON(X, Type, name)
-#endif
-#define SHOAL_BENCH_ISAS(X, Type, name) \
-  X(Type, name, kScalar, isa_scalar)    \
-  SHOAL_BENCH_SSE42(X, Type, name)      \
-  SHOAL_BENCH_AVX2(X, Type, name) SHOAL_BENCH_AVX512(X, Type, name) SHOAL_BENCH_NEON(X, Type, name)
-#define SHOAL_BENCH_DECLARE(Type, name, kind, isa_namespace) const Type& name##_##isa_namespace();
-#define SHOAL_BENCH_CASE(Type, name, kind, isa_namespace) \
-  case Isa::kind:                                         \
-    return name##_##isa_namespace();
-// Declares name(Isa), the table of one ISA.
-#define SHOAL_BENCH_TABLE(Type, name)                \
-  SHOAL_BENCH_ISAS(SHOAL_BENCH_DECLARE, Type, name)  \
-  inline const Type& name(Isa isa) {                 \
-    switch (isa) {                                   \
-      SHOAL_BENCH_ISAS(SHOAL_BENCH_CASE, Type, name) \
-      default:                                       \
-        return name##_isa_scalar();                  \
-    }                                                \
-  }
-// The name of this translation unit's table.
-#define SHOAL_BENCH_PASTE_NAME(a, b) a##_##b
-#define SHOAL_BENCH_PASTE(a, b) SHOAL_BENCH_PASTE_NAME(a, b)
-#define SHOAL_BENCH_THIS_TABLE(name) SHOAL_BENCH_PASTE(name, SHOAL_ISA_NS)
 
 namespace shoal::bench {
 
@@ -65,7 +21,7 @@ struct CoreKernels {
   const MathKernel* math;
   std::size_t math_count;
 };
-SHOAL_BENCH_TABLE(CoreKernels, core_kernels)
+SHOAL_ISA_TABLE(CoreKernels, core_kernels)
 
 // Three full-frame targets in 4 x 4 blocks; depth is the visibility buffer's.
 struct FloatTargets {
@@ -89,7 +45,7 @@ struct RasterKernels {
   // Planes of linear r, g, b to RGB bytes; aces: with the tone curve.
   void (*encode)(const float* linear, bool aces, std::size_t blocks, std::uint8_t* out);
 };
-SHOAL_BENCH_TABLE(RasterKernels, raster_kernels)
+SHOAL_ISA_TABLE(RasterKernels, raster_kernels)
 
 enum class PathWay { kFixedPoint, kNewton, kHalley, kQuartic, kTable };
 
@@ -106,6 +62,6 @@ struct RefractionKernels {
   // confirm_hit of view rays against f.direct; by_neighbours: as if no pixel knew its own triangle.
   void (*confirm)(const FrameData&, bool by_neighbours, std::size_t region, std::int32_t* out);
 };
-SHOAL_BENCH_TABLE(RefractionKernels, refraction_kernels)
+SHOAL_ISA_TABLE(RefractionKernels, refraction_kernels)
 
 }  // namespace shoal::bench

@@ -40,8 +40,8 @@ constexpr MathKernel kMath[] = {
 }  // namespace shoal::bench::inline SHOAL_ISA_NS
 
 namespace shoal::bench {
-const CoreKernels& SHOAL_BENCH_THIS_TABLE(core_kernels)() {
-  static constexpr CoreKernels table{kMath, sizeof kMath / sizeof kMath[0]};
+const CoreKernels& SHOAL_THIS_ISA(core_kernels)() {
+  static constexpr CoreKernels table{.math = kMath, .math_count = sizeof kMath / sizeof kMath[0]};
   return table;
 }
 }  // namespace shoal::bench

@@ -141,8 +141,16 @@ void encode(const float* linear, bool aces, std::size_t blocks, std::uint8_t* ou
 }  // namespace shoal::bench::inline SHOAL_ISA_NS
 
 namespace shoal::bench {
-const RasterKernels& SHOAL_BENCH_THIS_TABLE(raster_kernels)() {
-  static constexpr RasterKernels table{&fill_float, &fill_rgba8, &resolve, &sample_row, &shade_blocks, &sky, &encode};
+const RasterKernels& SHOAL_THIS_ISA(raster_kernels)() {
+  static constexpr RasterKernels table{
+      .fill_float = &fill_float,
+      .fill_rgba8 = &fill_rgba8,
+      .resolve = &resolve,
+      .sample = &sample_row,
+      .shade = &shade_blocks,
+      .sky = &sky,
+      .encode = &encode,
+  };
   return table;
 }
 }  // namespace shoal::bench

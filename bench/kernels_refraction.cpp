@@ -96,9 +96,15 @@ void run_confirm(const FrameData& f, bool by_neighbours, std::size_t region, std
 }  // namespace shoal::bench::inline SHOAL_ISA_NS
 
 namespace shoal::bench {
-const RefractionKernels& SHOAL_BENCH_THIS_TABLE(refraction_kernels)() {
-  static constexpr RefractionKernels table{&run_virtual_distance, &run_solve,     &run_virtual_position,
-                                           &run_edge_deviation,   &run_exact_ray, &run_confirm};
+const RefractionKernels& SHOAL_THIS_ISA(refraction_kernels)() {
+  static constexpr RefractionKernels table{
+      .virtual_distance = &run_virtual_distance,
+      .solve = &run_solve,
+      .virtual_position = &run_virtual_position,
+      .edge_deviation = &run_edge_deviation,
+      .exact_ray = &run_exact_ray,
+      .confirm = &run_confirm,
+  };
   return table;
 }
 }  // namespace shoal::bench

@@ -16,22 +16,60 @@ elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
 else()
   set(all_isas scalar)
 endif()
-# Fewer build faster; scalar is always there, and the order above holds whatever is asked for.
-set(SHOAL_ISAS "${all_isas}" CACHE STRING "Instruction sets to build kernels for")
-foreach(isa IN LISTS SHOAL_ISAS)
+# Fewer build faster. `native` is the best one that this machine runs (of a cross-compiler's target: the best one there
+# is). The order above holds whatever the order of the list.
+set(SHOAL_ISAS "${all_isas}" CACHE STRING "Instruction sets to build kernels for, of: ${all_isas} native")
+
+# shoal_native_isa(<variable>): the name in all_isas that `native` stands for.
+function(shoal_native_isa variable)
+  list(GET all_isas -1 best)
+  if(NOT CMAKE_CROSSCOMPILING)
+    set(builds "")
+    foreach(isa IN LISTS all_isas)
+      string(TOUPPER ${isa} ISA)
+      list(APPEND builds -DSHOAL_BUILDS_${ISA}=1)
+    endforeach()
+    try_run(SHOAL_NATIVE_RAN SHOAL_NATIVE_COMPILED ${PROJECT_BINARY_DIR}/native_isa
+            ${PROJECT_SOURCE_DIR}/cmake/native_isa.cpp
+            CMAKE_FLAGS -DINCLUDE_DIRECTORIES=${PROJECT_SOURCE_DIR}
+            COMPILE_DEFINITIONS ${builds}
+            CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON
+            COMPILE_OUTPUT_VARIABLE compiled RUN_OUTPUT_VARIABLE best)
+    if(NOT SHOAL_NATIVE_COMPILED OR NOT SHOAL_NATIVE_RAN EQUAL 0)
+      message(FATAL_ERROR "SHOAL_ISAS=native: cmake/native_isa.cpp failed; name an instruction set instead\n${compiled}${best}")
+    endif()
+    string(STRIP "${best}" best)
+    string(REPLACE . "" best "${best}")  # sse4.2 is sse42 here
+  endif()
+  set(${variable} ${best} PARENT_SCOPE)
+endfunction()
+
+if(native IN_LIST SHOAL_ISAS)
+  # The cache keeps the name, so that a later configuration of this folder builds the same.
+  if(NOT DEFINED CACHE{SHOAL_NATIVE_ISA})
+    shoal_native_isa(native_isa)
+    set(SHOAL_NATIVE_ISA ${native_isa} CACHE INTERNAL "What native stands for in SHOAL_ISAS")
+  endif()
+  message(STATUS "SHOAL_ISAS: native is ${SHOAL_NATIVE_ISA}")
+endif()
+set(wanted_isas ${SHOAL_ISAS})
+list(TRANSFORM wanted_isas REPLACE "^native$" "${SHOAL_NATIVE_ISA}")
+foreach(isa IN LISTS wanted_isas)
   if(NOT isa IN_LIST all_isas)
-    message(FATAL_ERROR "SHOAL_ISAS: ${isa} is not one of ${all_isas}")
+    message(FATAL_ERROR "SHOAL_ISAS: ${isa} is not one of ${all_isas} native")
   endif()
 endforeach()
-set(asked_isas scalar ${SHOAL_ISAS})
 set(SHOAL_ISAS "")
 foreach(isa IN LISTS all_isas)
-  if(isa IN_LIST asked_isas)
+  if(isa IN_LIST wanted_isas)
     list(APPEND SHOAL_ISAS ${isa})
     string(TOUPPER ${isa} ISA)
     target_compile_definitions(shoal_flags INTERFACE SHOAL_BUILDS_${ISA}=1)
   endif()
 endforeach()
+if(NOT SHOAL_ISAS)
+  message(FATAL_ERROR "SHOAL_ISAS is empty; expected some of ${all_isas} native")
+endif()
 
 set(SHOAL_FLAGS_scalar "")
 set(SHOAL_FLAGS_sse42 -march=x86-64-v2)

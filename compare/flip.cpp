@@ -234,38 +234,4 @@ HdrFlip hdr_flip(const LinearPicture& reference, const LinearPicture& test, cons
   return flip;
 }
 
-// --- Kernels of an ISA ----------------------------------------------------------------------------------------------
-
-const FlipKernels& flip_kernels_isa_scalar();
-#if defined(__x86_64__)
-const FlipKernels& flip_kernels_isa_sse42();
-const FlipKernels& flip_kernels_isa_avx2();
-const FlipKernels& flip_kernels_isa_avx512();
-#elif defined(__aarch64__)
-const FlipKernels& flip_kernels_isa_neon();
-#endif
-
-const FlipKernels& flip_kernels(Isa isa) {
-  switch (isa) {
-#if defined(SHOAL_BUILDS_SSE42)
-    case Isa::kSse42:
-      return flip_kernels_isa_sse42();
-#endif
-#if defined(SHOAL_BUILDS_AVX2)
-    case Isa::kAvx2:
-      return flip_kernels_isa_avx2();
-#endif
-#if defined(SHOAL_BUILDS_AVX512)
-    case Isa::kAvx512:
-      return flip_kernels_isa_avx512();
-#endif
-#if defined(SHOAL_BUILDS_NEON)
-    case Isa::kNeon:
-      return flip_kernels_isa_neon();
-#endif
-    default:
-      return flip_kernels_isa_scalar();
-  }
-}
-
 }  // namespace shoal

@@ -31,7 +31,7 @@ inline constexpr float kDefaultPixelsPerDegree = 67.02f;
 
 struct FlipSettings {
   float pixels_per_degree = kDefaultPixelsPerDegree;  // 1 to 10000
-  Isa isa = Isa::kScalar;                             // the bytes do not depend on it
+  Isa isa = best_isa();                               // the bytes do not depend on it
 };
 
 // The error of each pixel, 0 to 1, rows from the top.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/blocked_image.h"
-#include "core/isa.h"
+#include "core/isa_dispatch.h"
 
 namespace shoal {
 
@@ -44,6 +44,6 @@ struct FlipKernels {
                   int y_begin, int y_end, float* error);
 };
 
-const FlipKernels& flip_kernels(Isa isa);
+SHOAL_ISA_TABLE(FlipKernels, flip_kernels)
 
 }  // namespace shoal

@@ -7,9 +7,6 @@
 #include "core/math.h"
 #include "core/vec_lanes.h"
 
-#define SHOAL_PASTE_NAME(a, b) a##b
-#define SHOAL_PASTE(a, b) SHOAL_PASTE_NAME(a, b)
-
 namespace shoal::inline SHOAL_ISA_NS {
 namespace {
 
@@ -187,10 +184,9 @@ void combine(const FlipFilters& filters, const FlipRows& reference, const FlipRo
 
 namespace shoal {
 
-const FlipKernels& SHOAL_PASTE(flip_kernels_, SHOAL_ISA_NS)();
-const FlipKernels& SHOAL_PASTE(flip_kernels_, SHOAL_ISA_NS)() {
-  static constexpr FlipKernels kernels{&filter_rows, &combine};
-  return kernels;
+const FlipKernels& SHOAL_THIS_ISA(flip_kernels)() {
+  static constexpr FlipKernels table{.filter_rows = &filter_rows, .combine = &combine};
+  return table;
 }
 
 }  // namespace shoal

@@ -15,8 +15,17 @@ const char* isa_name(Isa isa);
 // The opposite; nothing for any other word.
 std::optional<Isa> parse_isa(std::string_view name);
 
-// What this machine runs and this program was built for, best first; the last is always kScalar. The x86 sets are the
+// Whether this program has kernels for it: SHOAL_ISAS of the build.
+bool is_built(Isa isa);
+
+// What this machine runs and this program was built for, best first; empty where there is none. The x86 sets are the
 // psABI's levels as the kernels are compiled: v2, v3 and v4, the last with AVX-512 F, BW, CD, DQ and VL.
 std::vector<Isa> supported_isas();
+
+// The first of supported_isas(). Throws Error where this machine runs none of them.
+Isa best_isa();
+
+// "isa 'scalar': ..." as UsageError.
+[[noreturn]] void throw_isa_not_built(Isa isa);
 
 }  // namespace shoal

@@ -41,7 +41,8 @@ void check_settings(const FrameSettings& s, const RenderScene& scene) {
         "exposure is out of range; expected -100 to 100 stops");
   const std::vector<Isa> isas = supported_isas();
   check(std::find(isas.begin(), isas.end(), s.isa) != isas.end(),
-        std::string("isa ") + isa_name(s.isa) + " does not run on this machine");
+        std::string("isa ") + isa_name(s.isa) +
+            (is_built(s.isa) ? " does not run on this machine" : " is not in this build"));
   check(scene.geometry.triangles.size() < static_cast<std::size_t>(kNoId),
         "the scene has too many triangles; expected fewer than 2147483647");
   check(scene.waters.size() < static_cast<std::size_t>(kMaxWaterBodies), "the scene has too many bodies of water");

@@ -55,7 +55,7 @@ struct FrameSettings {
   int spp = 1;                                        // 1 to 256
   int threads = 0;                                    // 0: all that the process may use
   int tile_px = 64;                                   // a power of two, 16 to 256
-  Isa isa = Isa::kScalar;                             // see supported_isas()
+  Isa isa = best_isa();                               // see supported_isas()
   int anisotropy = 1;                                 // 1 (none) to 16
   Shadows shadows = Shadows::kMap;
   int shadow_map_px = 4096;  // a power of two, 256 to 8192

@@ -18,13 +18,14 @@ FrameKernels make_frame_kernels();
 
 namespace shoal {
 
-const KernelTable& SHOAL_PASTE(kernel_table_, SHOAL_ISA_NS)() {
+const KernelTable& SHOAL_THIS_ISA(kernel_table)() {
   static const Method methods[] = {
 #define SHOAL_METHOD(name) name(),
 #include "refraction/methods/methods.def"
 #undef SHOAL_METHOD
   };
-  static const KernelTable table{make_frame_kernels(), methods, sizeof methods / sizeof methods[0]};
+  static const KernelTable table{
+      .frame = make_frame_kernels(), .methods = methods, .method_count = sizeof methods / sizeof methods[0]};
   return table;
 }
 

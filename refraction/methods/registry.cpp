@@ -8,37 +8,10 @@
 
 namespace shoal {
 
-namespace {
-
-const KernelTable& table_of(Isa isa) {
-  switch (isa) {
-#if defined(SHOAL_BUILDS_SSE42)
-    case Isa::kSse42:
-      return kernel_table_isa_sse42();
-#endif
-#if defined(SHOAL_BUILDS_AVX2)
-    case Isa::kAvx2:
-      return kernel_table_isa_avx2();
-#endif
-#if defined(SHOAL_BUILDS_AVX512)
-    case Isa::kAvx512:
-      return kernel_table_isa_avx512();
-#endif
-#if defined(SHOAL_BUILDS_NEON)
-    case Isa::kNeon:
-      return kernel_table_isa_neon();
-#endif
-    default:
-      return kernel_table_isa_scalar();
-  }
-}
-
-}  // namespace
-
-const FrameKernels& frame_kernels(Isa isa) { return table_of(isa).frame; }
+const FrameKernels& frame_kernels(Isa isa) { return kernel_table(isa).frame; }
 
 const Method& find_method(const std::string& name, Isa isa) {
-  const KernelTable& table = table_of(isa);
+  const KernelTable& table = kernel_table(isa);
   std::string known;
   for (std::size_t i = 0; i < table.method_count; ++i) {
     if (name == table.methods[i].name) return table.methods[i];
@@ -50,7 +23,7 @@ const Method& find_method(const std::string& name, Isa isa) {
 const std::vector<MethodInfo>& method_infos() {
   static const std::vector<MethodInfo> infos = [] {
     std::vector<MethodInfo> list;
-    const KernelTable& table = table_of(Isa::kScalar);
+    const KernelTable& table = kernel_table(best_isa());
     for (std::size_t i = 0; i < table.method_count; ++i) {
       const Method& method = table.methods[i];
       list.push_back({method.name, method.description, method.source, {}, method.portable});

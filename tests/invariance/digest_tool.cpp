@@ -88,7 +88,7 @@ Arguments parse_arguments(int count, char** texts) {
   arguments.settings.shadow_map_px = 512;  // enough to show a difference, and quick where nothing is
   arguments.settings.width_px = 240;
   arguments.settings.height_px = 135;
-  arguments.settings.isa = shoal::supported_isas().front();
+  arguments.settings.isa = shoal::best_isa();
   arguments.settings.digests = true;
   arguments.settings.aovs = (1u << static_cast<unsigned>(shoal::Aov::kCount)) - 1u;
   for (const shoal::MethodInfo& method : shoal::method_infos())

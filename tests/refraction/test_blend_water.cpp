@@ -232,7 +232,7 @@ TEST_CASE("blend: every stage is the same for any threads, tiles and instruction
     settings.digests = true;
     settings.threads = 1;
     settings.shadow_map_px = 512;
-    settings.isa = Isa::kScalar;
+    settings.isa = supported_isas().back();
     for (const int spp : {1, 2}) {
       settings.spp = spp, settings.tile_px = 64;
       const Frame expected = render_scene(scene, camera, settings);
