@@ -13,7 +13,7 @@ namespace {
 using Names = std::vector<std::string>;
 
 bool has_option(const MethodInfo& method, const std::string& key) {
-  return std::any_of(method.options.begin(), method.options.end(), [&](const auto& o) { return o.first == key; });
+  return std::any_of(method.options.begin(), method.options.end(), [&](const auto& o) { return o.key == key; });
 }
 
 bool is_method(const std::string& name) {

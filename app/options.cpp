@@ -51,7 +51,7 @@ Names method_names() {
 }
 
 bool has_option(const MethodInfo& method, std::string_view key) {
-  return std::any_of(method.options.begin(), method.options.end(), [&](const auto& o) { return o.first == key; });
+  return std::any_of(method.options.begin(), method.options.end(), [&](const auto& o) { return o.key == key; });
 }
 
 // --- --set ----------------------------------------------------------------------------------------------------------

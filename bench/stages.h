@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/thread_pool.h"
-#include "refraction/kernels.h"
+#include "refraction/methods/kernels.h"
 #include "scene/scene.h"
 
 namespace shoal::bench {

@@ -2,11 +2,11 @@
 
 namespace shoal {
 
-std::size_t drawable_of(const Geometry& geometry, std::int32_t triangle_id) {
-  std::size_t lo = 0, hi = geometry.drawables.size();
+std::size_t drawable_of(std::span<const Drawable> drawables, std::int32_t triangle_id) {
+  std::size_t lo = 0, hi = drawables.size();
   while (hi - lo > 1) {
     const std::size_t middle = (lo + hi) / 2;
-    const bool starts_before = geometry.drawables[middle].first_triangle <= static_cast<std::uint32_t>(triangle_id);
+    const bool starts_before = drawables[middle].first_triangle <= static_cast<std::uint32_t>(triangle_id);
     (starts_before ? lo : hi) = middle;
   }
   return lo;

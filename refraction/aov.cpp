@@ -2,8 +2,7 @@
 
 #include <limits>
 
-#include "raster/camera.h"
-#include "water/displaced_surface.h"
+#include "raster/geometry_lookup.h"
 
 namespace shoal {
 
@@ -17,160 +16,136 @@ struct Pixel {
   std::int32_t id;
   bool water() const { return id < 0; }
   bool triangle() const { return id >= 0 && id != kNoId; }
+  std::size_t body() const { return static_cast<std::size_t>(id - kFirstWaterId); }
 };
 
 std::uint32_t id_out(std::int32_t id) { return id >= 0 && id != kNoId ? static_cast<std::uint32_t>(id) : kNoneOut; }
-
-// Node of a triangle: its drawable is the last that starts at or before it.
-std::uint32_t node_of(const Geometry& g, std::int32_t id) {
-  std::size_t lo = 0, hi = g.drawables.size();
-  while (hi - lo > 1) {
-    const std::size_t mid = (lo + hi) / 2;
-    (g.drawables[mid].first_triangle <= static_cast<std::uint32_t>(id) ? lo : hi) = mid;
-  }
-  return g.drawables[lo].node;
-}
+Vec3f at(const PlaneXyz& planes, std::size_t slot) { return {planes.x[slot], planes.y[slot], planes.z[slot]}; }
 
 // Metres along the view axis; infinity where nothing is.
-float depth_m(const FrameData& f, const Pixel& p) {
+float depth_m(const AovIn& in, const Pixel& p) {
   if (p.id == kNoId) return std::numeric_limits<float>::infinity();
-  return view_depth_m(f.view, f.direct.depth[p.slot]);
+  return view_depth_m(in.view, in.targets.direct.depth[p.slot]);
 }
-
-class Planes {
- public:
-  Planes(const AlignedArray<float>& x, const AlignedArray<float>& y, const AlignedArray<float>& z)
-      : plane_{&x, &y, &z} {}
-  Vec3f at(std::size_t slot) const { return {(*plane_[0])[slot], (*plane_[1])[slot], (*plane_[2])[slot]}; }
-
- private:
-  const AlignedArray<float>* plane_[3];
-};
 
 // The surface of a body over a point of it.
 struct Waves {
-  float height_m;
-  Vec3f normal;  // on the plane normal's side
+  float height_m = 0;
+  Vec3f normal{0, 0, 0};  // on the plane normal's side
 };
-Waves waves_at(const FrameData& f, const Pixel& p, Vec3f position_world) {
-  const WaterPass& water = f.water[static_cast<std::size_t>(p.id - kFirstWaterId)];
-  const WaterBody& body = *water.body;
-  if (water.surface == nullptr) return {0.0f, body.normal};
-  const Vec3f at = on_body<float>(body, position_world);
-  return {surface_at<float>(*water.surface, at.x, at.z).height_m,
-          displaced_normal<float>(body, *water.surface, position_world)};
+Waves waves_of(const AovIn& in, const Pixel& p) {
+  if (!p.water()) return {};
+  const WaterOptics& optics = in.water[p.body()];
+  const WaterBody& body = optics.body();
+  if (optics.surface() == nullptr) return {0.0f, body.normal};
+  const Vec3f position = at(in.targets.gbuffer.position_world, p.slot);
+  const Vec3f on_plane = on_body<float>(body, position);
+  return {surface_at<float>(*optics.surface(), on_plane.x, on_plane.z).height_m,
+          displaced_normal<float>(body, *optics.surface(), position)};
 }
 
-Vec3f vector_at(const FrameData& f, Aov aov, const Pixel& p) {
-  const AlignedArray<float>* g = f.gbuffer.plane;
-  const HitPoints& h = f.hit_points;
-  const Planes position(g[GBuffer::kPositionX], g[GBuffer::kPositionY], g[GBuffer::kPositionZ]);
-  const Planes normal(g[GBuffer::kNormalX], g[GBuffer::kNormalY], g[GBuffer::kNormalZ]);
-  switch (aov) {
-    case Aov::kPosition:
-      return position.at(p.slot);
-    case Aov::kNormal:
-      return normal.at(p.slot);
-    case Aov::kHitPosition:
-      return Planes(h.x_world, h.y_world, h.z_world).at(p.slot);
-    case Aov::kVirtual:
-      return p.water() ? Planes(h.virtual_x, h.virtual_y, h.virtual_z).at(p.slot) : position.at(p.slot);
-    case Aov::kSurfaceNormal:
-      return p.water() ? waves_at(f, p, position.at(p.slot)).normal : Vec3f{0, 0, 0};
-    default:
-      return {0, 0, 0};
-  }
+// The AOVs: name and channels, and the value of a pixel, of one of three kinds.
+struct Row {
+  AovInfo info;
+  float (*number)(const AovIn&, const Pixel&);
+  Vec3f (*vector)(const AovIn&, const Pixel&);
+  std::uint32_t (*count)(const AovIn&, const Pixel&);
+};
+
+Row number(Aov aov, const char* name, const char* channels, float (*value)(const AovIn&, const Pixel&)) {
+  return {{aov, name, channels, false}, value, nullptr, nullptr};
+}
+Row vector(Aov aov, const char* name, Vec3f (*value)(const AovIn&, const Pixel&)) {
+  return {{aov, name, "XYZ", false}, nullptr, value, nullptr};
+}
+Row count(Aov aov, const char* name, std::uint32_t (*value)(const AovIn&, const Pixel&)) {
+  return {{aov, name, "", true}, nullptr, nullptr, value};
 }
 
-float surface_height_m(const FrameData& f, const Pixel& p) {
-  if (!p.water()) return 0.0f;
-  const AlignedArray<float>* g = f.gbuffer.plane;
-  return waves_at(f, p, Planes(g[GBuffer::kPositionX], g[GBuffer::kPositionY], g[GBuffer::kPositionZ]).at(p.slot))
-      .height_m;
-}
-
-std::uint32_t uint_at(const FrameData& f, const RenderScene& scene, Aov aov, const Pixel& p) {
-  switch (aov) {
-    case Aov::kIdTriangle:
-      return id_out(p.id);
-    case Aov::kIdNode:
-      if (p.triangle()) return node_of(scene.geometry, p.id);
-      return p.water() ? scene.waters[static_cast<std::size_t>(p.id - kFirstWaterId)].node : kNoneOut;
-    case Aov::kWaterMask:
-      return p.water() ? static_cast<std::uint32_t>(p.id - kFirstWaterId) + 1u : 0u;
-    case Aov::kHitKind:
-      return static_cast<std::uint32_t>(f.hit_points.kind[p.slot]);
-    case Aov::kHitOutside:
-      return static_cast<std::uint32_t>(f.hit_points.outside[p.slot]);
-    case Aov::kHitId:
-      return id_out(f.hit_points.id[p.slot]);
-    default:
-      return 0;
-  }
+const std::vector<Row>& rows() {
+  static const std::vector<Row> all = {
+      number(Aov::kDepth, "depth", "Z", &depth_m),
+      vector(Aov::kNormal, "normal",
+             [](const AovIn& in, const Pixel& p) { return at(in.targets.gbuffer.normal_world, p.slot); }),
+      vector(Aov::kPosition, "position",
+             [](const AovIn& in, const Pixel& p) { return at(in.targets.gbuffer.position_world, p.slot); }),
+      count(Aov::kIdTriangle, "id.triangle", [](const AovIn&, const Pixel& p) { return id_out(p.id); }),
+      count(Aov::kIdNode, "id.node",
+            [](const AovIn& in, const Pixel& p) {
+              if (p.triangle()) return in.scene.geometry.drawables[drawable_of(in.scene.geometry, p.id)].node;
+              return p.water() ? in.scene.waters[p.body()].node : kNoneOut;
+            }),
+      vector(Aov::kVirtual, "virtual",
+             [](const AovIn& in, const Pixel& p) {
+               return at(p.water() ? in.targets.hits.virtual_world : in.targets.gbuffer.position_world, p.slot);
+             }),
+      count(Aov::kWaterMask, "water.mask",
+            [](const AovIn&, const Pixel& p) { return p.water() ? static_cast<std::uint32_t>(p.body()) + 1u : 0u; }),
+      number(Aov::kSurfaceHeight, "surface.height", "",
+             [](const AovIn& in, const Pixel& p) { return waves_of(in, p).height_m; }),
+      vector(Aov::kSurfaceNormal, "surface.normal",
+             [](const AovIn& in, const Pixel& p) { return waves_of(in, p).normal; }),
+      count(Aov::kHitKind, "hit.kind",
+            [](const AovIn& in, const Pixel& p) { return static_cast<std::uint32_t>(in.targets.hits.kind[p.slot]); }),
+      vector(Aov::kHitPosition, "hit.position",
+             [](const AovIn& in, const Pixel& p) { return at(in.targets.hits.position_world, p.slot); }),
+      count(Aov::kHitId, "hit.id", [](const AovIn& in, const Pixel& p) { return id_out(in.targets.hits.id[p.slot]); }),
+      count(Aov::kHitOutside, "hit.outside",
+            [](const AovIn& in, const Pixel& p) { return static_cast<std::uint32_t>(in.targets.hits.outside[p.slot]); }),
+  };
+  return all;
 }
 
 template <class Body>
-void for_each_pixel(const FrameData& f, Body body) {
-  for (int y = 0; y < f.grid.height_px; ++y)
-    for (int x = 0; x < f.grid.width_px; ++x) {
-      const std::size_t slot = f.grid.slot(x, y);
-      body(Pixel{slot, f.direct.id[slot]});
+void for_each_pixel(const FrameGrid& frame, const VisibilityBuffer& direct, Body body) {
+  for (int y = 0; y < frame.height_px; ++y)
+    for (int x = 0; x < frame.width_px; ++x) {
+      const std::size_t slot = frame.slot(x, y);
+      body(Pixel{slot, direct.id[slot]});
     }
 }
 
 }  // namespace
 
 const std::vector<AovInfo>& aov_infos() {
-  static const std::vector<AovInfo> infos = {
-      {Aov::kDepth, "depth", "Z", false},
-      {Aov::kNormal, "normal", "XYZ", false},
-      {Aov::kPosition, "position", "XYZ", false},
-      {Aov::kIdTriangle, "id.triangle", "", true},
-      {Aov::kIdNode, "id.node", "", true},
-      {Aov::kVirtual, "virtual", "XYZ", false},
-      {Aov::kWaterMask, "water.mask", "", true},
-      {Aov::kSurfaceHeight, "surface.height", "", false},
-      {Aov::kSurfaceNormal, "surface.normal", "XYZ", false},
-      {Aov::kHitKind, "hit.kind", "", true},
-      {Aov::kHitPosition, "hit.position", "XYZ", false},
-      {Aov::kHitId, "hit.id", "", true},
-      {Aov::kHitOutside, "hit.outside", "", true},
-  };
+  static const std::vector<AovInfo> infos = [] {
+    std::vector<AovInfo> list;
+    for (const Row& row : rows()) list.push_back(row.info);
+    return list;
+  }();
   return infos;
 }
 
-void copy_aovs(const FrameData& f, const RenderScene& scene, Frame& out) {
+void copy_aovs(const AovIn& in, std::uint32_t aovs, Frame& out) {
   out.aovs.clear();
-  const std::size_t pixels = static_cast<std::size_t>(f.grid.width_px) * static_cast<std::size_t>(f.grid.height_px);
-  for (const AovInfo& info : aov_infos()) {
-    if (((f.settings.aovs >> static_cast<int>(info.aov)) & 1u) == 0) continue;
-    AovImage image{info.aov, 1, {}, {}};
-    if (info.is_uint) {
+  const std::size_t pixels = static_cast<std::size_t>(in.frame.width_px) * static_cast<std::size_t>(in.frame.height_px);
+  for (const Row& row : rows()) {
+    if (((aovs >> static_cast<int>(row.info.aov)) & 1u) == 0) continue;
+    AovImage image{row.info.aov, 1, {}, {}};
+    if (row.count != nullptr) {
       image.uints.reserve(pixels);
-      for_each_pixel(f, [&](const Pixel& p) { image.uints.push_back(uint_at(f, scene, info.aov, p)); });
-    } else if (std::string_view(info.channels) == "XYZ") {
+      for_each_pixel(in.frame, in.targets.direct, [&](const Pixel& p) { image.uints.push_back(row.count(in, p)); });
+    } else if (row.vector != nullptr) {
       image.channels = 3;
       image.floats.reserve(pixels * 3);
-      for_each_pixel(f, [&](const Pixel& p) {
-        const Vec3f v = vector_at(f, info.aov, p);
+      for_each_pixel(in.frame, in.targets.direct, [&](const Pixel& p) {
+        const Vec3f v = row.vector(in, p);
         image.floats.insert(image.floats.end(), {v.x, v.y, v.z});
       });
     } else {
       image.floats.reserve(pixels);
-      for_each_pixel(f, [&](const Pixel& p) {
-        image.floats.push_back(info.aov == Aov::kDepth ? depth_m(f, p) : surface_height_m(f, p));
-      });
+      for_each_pixel(in.frame, in.targets.direct, [&](const Pixel& p) { image.floats.push_back(row.number(in, p)); });
     }
     out.aovs.push_back(std::move(image));
   }
 }
 
-void copy_linear(const FrameData& f, Frame& out) {
+void copy_linear(const Targets& targets, const FrameGrid& frame, Frame& out) {
   out.linear.clear();
-  out.linear.reserve(static_cast<std::size_t>(f.grid.width_px) * static_cast<std::size_t>(f.grid.height_px) * 4);
-  for_each_pixel(f, [&](const Pixel& p) {
-    out.linear.insert(out.linear.end(),
-                      {f.lit.red[p.slot], f.lit.green[p.slot], f.lit.blue[p.slot], f.lit.alpha[p.slot]});
+  out.linear.reserve(static_cast<std::size_t>(frame.width_px) * static_cast<std::size_t>(frame.height_px) * 4);
+  const LitBuffer& lit = targets.lit;
+  for_each_pixel(frame, targets.direct, [&](const Pixel& p) {
+    out.linear.insert(out.linear.end(), {lit.red[p.slot], lit.green[p.slot], lit.blue[p.slot], lit.alpha[p.slot]});
   });
 }
 

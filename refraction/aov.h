@@ -1,13 +1,24 @@
 // Buffers beside the picture, as images.
 #pragma once
 
-#include "refraction/frame_data.h"
+#include <vector>
+
+#include "refraction/data/targets.h"
+#include "refraction/data/water_pass.h"
 #include "refraction/renderer.h"
 
 namespace shoal {
 
-// Fills out.aovs with what f.settings.aovs asks for.
-void copy_aovs(const FrameData& f, const RenderScene& scene, Frame& out);
-void copy_linear(const FrameData& f, Frame& out);
+struct AovIn {
+  const RenderScene& scene;
+  const View& view;
+  const FrameGrid& frame;
+  const Targets& targets;
+  const std::vector<WaterOptics>& water;
+};
+
+// Fills out.aovs with those of the mask, bit 1 << int(Aov).
+void copy_aovs(const AovIn& in, std::uint32_t aovs, Frame& out);
+void copy_linear(const Targets& targets, const FrameGrid& frame, Frame& out);
 
 }  // namespace shoal

@@ -5,15 +5,14 @@
 
 #include "core/error.h"
 #include "core/float_mode.h"
-#include "core/thread_pool.h"
 #include "raster/geometry_view.h"
 #include "refraction/aov.h"
-#include "refraction/passes/blend.h"
-#include "refraction/frame.h"
-#include "refraction/methods/options.h"
 #include "refraction/data/sample_positions.h"
-#include "refraction/stage_digests.h"
-#include "refraction/passes/water_region.h"
+#include "refraction/frame.h"
+#include "scene/light_medium.h"
+#include "scene/sun_bend.h"
+#include "trace/trace_rays.h"
+#include "water/prepare_surface.h"
 
 namespace shoal {
 
@@ -48,70 +47,32 @@ void check_settings(const FrameSettings& s, const RenderScene& scene) {
   check(scene.waters.size() < static_cast<std::size_t>(kMaxWaterBodies), "the scene has too many bodies of water");
 }
 
-constexpr const char* kRayNames[RayCounts::kKinds] = {"primary", "reflected", "refracted", "shadow"};
+// The meshlets of blended materials, in submission order.
+std::vector<std::uint32_t> blended_meshlets(const RenderScene& scene) {
+  std::vector<std::uint32_t> found;
+  for (std::size_t m = 0; m < scene.geometry.meshlets.size(); ++m)
+    if (scene.materials.materials[scene.geometry.meshlets[m].material].alpha_mode == AlphaMode::kBlend)
+      found.push_back(static_cast<std::uint32_t>(m));
+  return found;
+}
 
-}  // namespace
+bool has_waves(const RenderScene& scene) {
+  return std::any_of(scene.waters.begin(), scene.waters.end(),
+                     [](const WaterBody& body) { return body.surface.kind != SurfaceKind::kFlat; });
+}
 
-struct Renderer::Impl {
-  std::unique_ptr<RenderScene> moved;  // the renderer's own, where the scene is animated
-  const RenderScene& scene;
-  const FrameKernels& kernels;
-  const Method& method;
-  ThreadPool pool;
-  FrameData frame;
-  Geometry outlines;  // of the bodies of water
-  Materials outline_materials;
-  std::vector<Material> filtered_materials;  // the scene's with the frame's texture filtering, where that is not theirs
-  StageClock clock;
+// Each body's outline as a drawable of its own, seen from both sides.
+struct Outlines {
+  Geometry geometry;
+  std::vector<DrawState> draw_states{DrawState{true, false, false}};
+  std::vector<std::uint32_t> first_meshlet;  // of body b; one more at the end
+  std::vector<Vec3f> vertices;               // of all bodies
 
-  Impl(const RenderScene& s, const FrameSettings& settings)
-      : moved(s.moves() ? std::make_unique<RenderScene>(s) : nullptr),
-        scene(moved ? *moved : s),
-        kernels(frame_kernels(settings.isa)),
-        method(find_method(settings.method, settings.isa)),
-        pool(settings.threads > 0 ? settings.threads : available_threads()) {
-    build_outlines();
-    FrameData& f = frame;
-    f.scene = &scene;
-    f.settings = settings;
-    f.grid = make_frame_grid(settings.width_px, settings.height_px);
-    f.bin_grid = make_bin_grid(settings.width_px, settings.height_px, settings.tile_px);
-    const bool waves = std::any_of(scene.waters.begin(), scene.waters.end(),
-                                   [](const WaterBody& body) { return body.surface.kind != SurfaceKind::kFlat; });
-    const bool looks_along_waves = waves && method.kernels.light_layer != nullptr;
-    f.layers = make_layer_grid(f.grid, settings.tile_px, looks_along_waves ? kWaveMargin_px : 0);
-    f.geometry = view_of(scene.geometry, scene.materials);
-    f.water_geometry = view_of(outlines, outline_materials);
-    filter_materials();
-    f.bins = make_bins(scene.geometry.meshlets.size());
-    f.water_bins.work_items.resize(scene.waters.size());
-    if (!scene.waters.empty() && method.kernels.trace == nullptr) {
-      f.tree = std::make_unique<Bvh16>();
-      f.tree->build(scene.geometry, scene.materials, waves, pool);
-    }
-    read_method_options(method, settings.method_options, f.method_option);
-    if (method.kernels.trace != nullptr || settings.shadows == Shadows::kRays) {
-      f.rays = make_ray_queries(scene, pool.threads());
-      if (f.rays == nullptr) throw UsageError("this build has no ray tracer; expected a method that is not ray-traced");
-    }
-    find_blended(f, pool.threads());
-    if (!moved) build_shadows(f, kernels, pool);
-    if (!moved && method.kernels.prepare != nullptr) method.kernels.prepare(f, pool, nullptr);
-    for (const WaterBody& body : scene.waters)
-      f.surface_models.push_back(make_surface_model(body.surface, plane_extent(body)));
-    allocate();
-  }
-
-  // Each body's outline as drawable of its own, seen from both sides.
-  void build_outlines() {
-    Material surface;
-    surface.double_sided = true;
-    outline_materials.materials.assign(1, surface);
-    outlines = Geometry{};
-    std::vector<std::uint32_t>& first_meshlet = frame.outline_first_meshlet;
-    first_meshlet.clear();
-    for (const WaterBody& body : scene.waters) {
-      first_meshlet.push_back(static_cast<std::uint32_t>(outlines.meshlets.size()));
+  void build(const std::vector<WaterBody>& bodies) {
+    geometry = Geometry{};
+    first_meshlet.clear(), vertices.clear();
+    for (const WaterBody& body : bodies) {
+      first_meshlet.push_back(static_cast<std::uint32_t>(geometry.meshlets.size()));
       const std::vector<Vec3f> normals(body.outline.size(), body.normal);
       std::vector<std::uint32_t> indices(body.outline.size());
       for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<std::uint32_t>(i);
@@ -120,140 +81,274 @@ struct Renderer::Impl {
       mesh.normals_world = normals.data();
       mesh.indices = indices.data();
       mesh.vertex_count = mesh.index_count = static_cast<std::uint32_t>(indices.size());
-      append_mesh(outlines, mesh);
+      append_mesh(geometry, mesh);
+      vertices.insert(vertices.end(), body.outline.begin(), body.outline.end());
     }
-    first_meshlet.push_back(static_cast<std::uint32_t>(outlines.meshlets.size()));
+    first_meshlet.push_back(static_cast<std::uint32_t>(geometry.meshlets.size()));
+  }
+  OutlineView view() const {
+    return {view_of(geometry, draw_states.data()), first_meshlet.data(), first_meshlet.size() - 1};
+  }
+};
+
+}  // namespace
+
+struct Renderer::Impl {
+  std::unique_ptr<RenderScene> moved;  // the renderer's own copy, where the scene is animated
+  const RenderScene& scene;
+  const FrameSettings settings;
+  const FrameKernels& kernels;
+  const Method& method;
+  MethodState state;
+  ThreadPool pool;
+  StageClock clock;
+
+  // What the views of the scene refer to.
+  Outlines outlines;
+  std::vector<DrawState> states;
+  std::vector<Material> materials;  // with the frame's texture filtering
+  SunShadows shadows;
+  std::vector<SurfaceModel> surface_models;  // of the bodies
+  std::vector<WaterSurface> surfaces;        // at this time
+  std::vector<PlacedWater> water;
+  std::vector<LightMedium> light_media;
+  Bvh16 bvh;
+  std::unique_ptr<RayQueries> rays;  // where the method or the shadows trace rays, else null
+  TracedShadows traced_shadows;
+  SceneView view;
+  OutlineView outline_view;
+  TraceView trace;
+
+  // The frame's own.
+  std::vector<std::uint32_t> blended;
+  FrameGrids grids;
+  TargetNeeds needs;
+  Targets targets;
+  FrameWork work;
+  FrameCounts counts;
+  ViewState view_state;
+
+  Impl(const RenderScene& s, const FrameSettings& given)
+      : moved(s.moves() ? std::make_unique<RenderScene>(s) : nullptr),
+        scene(moved ? *moved : s),
+        settings(given),
+        kernels(frame_kernels(given.isa)),
+        method(find_method(given.method, given.isa)),
+        pool(given.threads > 0 ? given.threads : available_threads()),
+        states(draw_states(scene.materials.materials)),
+        materials(scene.materials.materials),
+        blended(blended_meshlets(scene)) {
+    if (settings.anisotropy != 1)
+      for (Material& m : materials) m.set_anisotropy(settings.anisotropy);
+    const bool waves = has_waves(scene), image_space = method.kernels.lights_layer;
+    grids = make_frame_grids(settings.width_px, settings.height_px, settings.tile_px,
+                             waves && image_space ? kWaveMargin_px : 0);
+    read_method_options(method.name, method.options, settings.method_options, state);
+    outlines.build(scene.waters);
+    build_trace(waves);
+    view_scene();
+    if (!moved) {
+      build_sun_shadows();
+      prepare_method(nullptr);
+    }
+    for (const WaterBody& body : scene.waters)
+      surface_models.push_back(make_surface_model(body.surface, plane_extent(body)));
+    allocate_frame();
   }
 
-  // Every pass reads its samplers from the view's materials.
-  void filter_materials() {
-    if (frame.settings.anisotropy == 1) return;
-    filtered_materials = scene.materials.materials;
-    for (Material& m : filtered_materials) m.set_anisotropy(frame.settings.anisotropy);
-    frame.geometry.materials = filtered_materials.data();
+  bool captures() const { return settings.digests || settings.aovs != 0; }
+  bool has_water() const { return !scene.waters.empty(); }
+
+  // The structures that rays are traced against: the BVH of raster and hybrid methods in scenes with water, Embree's
+  // for the reference and traced shadows.
+  void build_trace(bool waves) {
+    if (has_water() && method.kernels.trace == nullptr) {
+      bvh.build(scene.geometry, scene.materials, waves, pool);
+      trace.bvh = &bvh;
+    }
+    if (method.kernels.trace == nullptr && settings.shadows != Shadows::kRays) return;
+    rays = make_ray_queries(scene, pool.threads());
+    if (rays == nullptr) throw UsageError("this build has no ray tracer; expected a method that is not ray-traced");
+    trace.rays = rays.get();
   }
 
-  bool captures() const { return frame.settings.digests || frame.settings.aovs != 0; }
-
-  void allocate() {
-    FrameData& f = frame;
-    f.direct.resize(f.grid);
-    const std::size_t regions = static_cast<std::size_t>(f.grid.regions_x) * static_cast<std::size_t>(f.grid.regions_y);
-    f.region_of_body.resize(regions);
-    f.layer_regions.resize(f.layers.grid.region_count());
-    f.tile_active.resize(static_cast<std::size_t>(f.layers.tiles.tiles_x) *
-                         static_cast<std::size_t>(f.layers.tiles.tiles_y));
-    if (!scene.waters.empty()) {
-      f.refracted.resize(f.layers.grid);
-      f.mirrored.resize(f.layers.grid);
-      f.hits.resize(f.grid);
-      if (method.kernels.light_layer != nullptr) f.layer.resize(f.grid), f.fetched.resize(f.grid);
-    }
-    if (captures()) {
-      for (auto& plane : f.gbuffer.plane) plane.resize(f.grid.pixel_slots());
-      HitPoints& h = f.hit_points;
-      for (auto* plane : {&h.x_world, &h.y_world, &h.z_world, &h.virtual_x, &h.virtual_y, &h.virtual_z})
-        plane->resize(f.grid.pixel_slots());
-      h.kind.resize(f.grid.pixel_slots());
-      h.id.resize(f.grid.pixel_slots());
-      h.outside.resize(f.grid.pixel_slots());
-    }
-    if (f.settings.spp > 1 || f.settings.digests || f.settings.keep_linear)
-      for (auto* plane : {&f.lit.red, &f.lit.green, &f.lit.blue, &f.lit.alpha}) plane->resize(f.grid.pixel_slots());
+  // The views of the scene, anew where the scene's arrays may have moved.
+  void view_scene() {
+    ShadingView& shading = view.shading;
+    shading.geometry = view_of(scene.geometry, states.data());
+    shading.materials = materials.data();
+    shading.textures = scene.materials.textures.data();
+    shading.lighting = &scene.lighting;
+    shading.sun_shadows = &shadows;
+    traced_shadows = {&shading, rays.get(), &counts.rays};
+    if (settings.shadows == Shadows::kRays) shading.shadow_rays = {kernels.sun_blocked, &traced_shadows};
+    view.drawables = scene.geometry.drawables;
+    view.triangle_count = static_cast<std::int32_t>(scene.geometry.triangles.size());
+    outline_view = outlines.view();
   }
 
+  void build_sun_shadows() {
+    shadows = SunShadows();
+    if (settings.shadows == Shadows::kMap && !scene.lighting.directional.empty()) {
+      std::vector<SunBend> bends;
+      for (const WaterBody& body : scene.waters)
+        bends.push_back(bend_of(body, scene.lighting.directional[0].direction_world));
+      build_shadows({view.shading, scene.geometry.meshlets, materials.size(), bends, outlines.vertices,
+                     settings.shadow_map_px},
+                    shadows, pool, kernels.shadow);
+    }
+    light_media.clear();
+    for (std::size_t b = 0; b < scene.waters.size(); ++b)
+      light_media.push_back(light_medium(scene.waters[b], scene.lighting, shadows.map_index(b)));
+    view.light_media = light_media.data();
+  }
+
+  void prepare_method(const Camera* camera) {
+    if (method.kernels.prepare != nullptr) method.kernels.prepare({scene, camera, pool}, state);
+  }
+
+  void allocate_frame() {
+    needs.water = has_water();
+    needs.lit_layer = method.kernels.lights_layer;
+    needs.blended = !blended.empty();
+    needs.capture = captures();
+    needs.linear = settings.spp > 1 || settings.digests || settings.keep_linear;
+    allocate(targets, grids, needs);
+    const std::size_t threads = static_cast<std::size_t>(pool.threads());
+    work.bins = make_bins(scene.geometry.meshlets.size());
+    work.outline_bins.work_items.resize(scene.waters.size());
+    work.counts.resize(grids.frame.region_count());
+    work.regions.resize(grids);
+    if (needs.water) {
+      work.scratch.resize(threads);
+      std::memset(static_cast<void*>(work.scratch.data()), 0, threads * sizeof(RegionScratch));
+    }
+    if (!needs.blended) return;
+    work.blended_bins = make_bins(blended.size());
+    if (needs.water) work.blended_reflected_bins = make_bins(blended.size());
+    work.blended_regions = make_bin_grid(settings.width_px, settings.height_px, kRegionSize);
+    work.fragments.resize(threads);
+    for (FragmentLists& lists : work.fragments) lists.allocate();
+  }
+
+  // The camera of one sample.
   void set_sample(const Camera& camera, Vec2f offset_px) {
-    FrameData& f = frame;
-    f.view = make_view(camera, f.settings.width_px, f.settings.height_px, offset_px);
-    f.frustum = make_frustum(f.view, 0, 0, f.settings.width_px - 1, f.settings.height_px - 1);
-    PassSettings& p = f.direct_pass;
+    ViewState& v = view_state;
+    const int width = settings.width_px, height = settings.height_px;
+    v.view = make_view(camera, width, height, offset_px);
+    v.frustum = make_frustum(v.view, 0, 0, width - 1, height - 1);
+    PassSettings& p = v.direct_pass;
     p = PassSettings{};
-    p.width_px = f.settings.width_px, p.height_px = f.settings.height_px;
-    p.centre_px = f.view.centre_px;
-    p.grid = f.bin_grid;
-    p.x_max = f.settings.width_px - 1, p.y_max = f.settings.height_px - 1;
-    p.skip_blended = f.blended.any();
+    p.width_px = width, p.height_px = height;
+    p.centre_px = v.view.centre_px;
+    p.grid = grids.tiles;
+    p.x_max = width - 1, p.y_max = height - 1;
+    p.skip_blended = !blended.empty();
   }
 
-  void sample(StageDigests* digests) { render_sample(frame, kernels, method.kernels, pool, clock, digests); }
+  void sample(StageDigests* digests) {
+    if (view_state.capture) {
+      clear_captured(targets);
+      clock.skip();
+    }
+    const FrameIn in{view,
+                     trace,
+                     outline_view,
+                     blended,
+                     grids,
+                     kernels,
+                     method.kernels,
+                     state,
+                     settings.reflections == Reflections::kScene,
+                     {settings.exposure_stops,
+                      settings.tone_map == ToneMap::kAces ? ToneCurve::kAces : ToneCurve::kNone}};
+    draw_sample(in, view_state, {targets, work, counts, view_state.eye_in_water}, {pool, clock, digests});
+  }
 
-  // Animated scenes: what moves, where it is at this time.
+  // An animated scene at a time, and all that follows its geometry.
   void move(const Camera& camera, double time_s) {
     update_render_scene(*moved, time_s, &pool);
-    if (!scene.waters.empty()) {
-      build_outlines();
-      frame.water_geometry = view_of(outlines, outline_materials);
-    }
+    if (has_water()) outlines.build(scene.waters);
+    view_scene();
     clock.lap("animate");
-    if (frame.rays != nullptr) frame.rays->update(), clock.lap("rays.build");
-    if (frame.tree != nullptr) frame.tree->refit(scene.geometry, pool), clock.lap("tree.build");
-    build_shadows(frame, kernels, pool);
+    if (rays != nullptr) rays->update(), clock.lap("rays.build");
+    if (trace.bvh != nullptr) bvh.refit(scene.geometry, pool), clock.lap("bvh.refit");
+    build_sun_shadows();
     clock.lap("shadow.map");
-    if (method.kernels.prepare != nullptr) method.kernels.prepare(frame, pool, &camera), clock.lap("method.build");
+    if (method.kernels.prepare != nullptr) prepare_method(&camera), clock.lap("method.build");
+  }
+
+  // The surfaces of the bodies at a time.
+  void place_surfaces(double time_s) {
+    surfaces.clear(), water.clear();
+    for (const SurfaceModel& model : surface_models) surfaces.push_back(prepare_surface(model, time_s));
+    for (std::size_t b = 0; b < scene.waters.size(); ++b) {
+      const WaterBody& body = scene.waters[b];
+      const bool flat = body.surface.kind == SurfaceKind::kFlat;
+      water.push_back({&body, flat ? nullptr : &surfaces[b], static_cast<std::int32_t>(b)});
+    }
+    view.water = water;
   }
 
   void render(const Camera& camera, double time_s, Frame& out) {
     const FloatModeGuard mode;
-    FrameData& f = frame;
-    StageDigests digests;
-    StageDigests* wanted = f.settings.digests ? &digests : nullptr;
+    StageDigests digests(targets, needs, grids, work.regions.layer);
+    StageDigests* wanted = settings.digests ? &digests : nullptr;
     clock.reset();
     if (moved) move(camera, time_s);
-    f.water_pixels = f.subdivision_capped = 0;
-    f.ray_counts = RayCounts();
-    f.time_s = time_s;
-    f.surfaces.clear();
-    for (const SurfaceModel& model : f.surface_models) f.surfaces.push_back(prepare_surface(model, time_s));
+    counts = FrameCounts();
+    place_surfaces(time_s);
     clock.lap("water");
-    f.srgb8.resize(static_cast<std::size_t>(f.settings.width_px) * static_cast<std::size_t>(f.settings.height_px) * 3);
-    if (wanted != nullptr) digests.shadow(f), clock.skip();
-    f.sample_count = f.settings.spp;
-    f.sample = 0;
-    if (f.settings.spp > 1) {
+    targets.srgb8.resize(static_cast<std::size_t>(settings.width_px) * static_cast<std::size_t>(settings.height_px) * 3);
+    if (wanted != nullptr) digests.add_shadows(shadows), clock.skip();
+    ViewState& v = view_state;
+    v.sample_count = settings.spp;
+    v.sample = 0;
+    if (settings.spp > 1) {
       // Buffers beside the picture are those of the pixels' centres.
       if (captures()) {
         set_sample(camera, {0, 0});
-        f.capture = true, f.accumulate = false, f.last_sample = false;
+        v.capture = true, v.accumulate = false, v.last_sample = false;
         sample(wanted);
-        out.water_pixels = f.water_pixels;
-        copy_aovs(f, scene, out);
-        f.ray_counts = RayCounts();
+        out.water_pixels = counts.water_pixels;
+        copy_aovs(aov_in(), settings.aovs, out);
+        counts.rays = RayCounts();
         clock.skip();
       }
-      f.capture = false, f.accumulate = true;
-      for (int s = 0; s < f.settings.spp; ++s) {
-        set_sample(camera, sample_position(s, f.settings.spp));
-        f.sample = s;
-        f.last_sample = s + 1 == f.settings.spp;
-        f.water_pixels = 0;
+      v.capture = false, v.accumulate = true;
+      for (int s = 0; s < settings.spp; ++s) {
+        set_sample(camera, sample_position(s, settings.spp));
+        v.sample = s;
+        v.last_sample = s + 1 == settings.spp;
+        counts.water_pixels = 0;
         sample(nullptr);
-        if (s == 0 && !captures()) out.water_pixels = f.water_pixels;
+        if (s == 0 && !captures()) out.water_pixels = counts.water_pixels;
       }
     } else {
       set_sample(camera, {0, 0});
-      f.capture = captures(), f.accumulate = true, f.last_sample = true;
+      v.capture = captures(), v.accumulate = true, v.last_sample = true;
       sample(wanted);
-      out.water_pixels = f.water_pixels;
+      out.water_pixels = counts.water_pixels;
     }
-    out.width_px = f.settings.width_px, out.height_px = f.settings.height_px;
-    if (f.settings.spp == 1) copy_aovs(f, scene, out);
-    if (f.settings.keep_linear) copy_linear(f, out);
-    if (wanted != nullptr) digests.picture(f);
+    out.width_px = settings.width_px, out.height_px = settings.height_px;
+    if (settings.spp == 1) copy_aovs(aov_in(), settings.aovs, out);
+    if (settings.keep_linear) copy_linear(targets, grids.frame, out);
+    if (wanted != nullptr) digests.add("lit"), digests.add_picture();
     // The picture changes hands; the caller's old one is the next frame's memory.
-    std::swap(out.srgb8, f.srgb8);
+    std::swap(out.srgb8, targets.srgb8);
     out.digests = digests.list();
     out.stages_ms = clock.stages();
     out.frame_ms = clock.total_ms();
-    out.subdivision_capped = f.subdivision_capped;
+    out.subdivision_capped = counts.subdivision_capped;
     out.method_figures.clear();
-    if (f.fields != nullptr)
-      out.method_figures = {{"field_build_ms", f.fields->build_ms},
-                            {"field_mb", static_cast<double>(f.fields->bytes()) / 1048576.0}};
+    if (state.data != nullptr) out.method_figures = state.data->figures();
     out.rays.clear();
-    if (f.rays != nullptr)
+    if (rays != nullptr)
       for (int kind = 0; kind < RayCounts::kKinds; ++kind)
-        out.rays.emplace_back(kRayNames[kind], f.ray_counts.of[kind]);
+        out.rays.emplace_back(kRayNames[kind], counts.rays.of[kind]);
   }
+
+  AovIn aov_in() const { return {scene, view_state.view, grids.frame, targets, work.water}; }
 };
 
 Renderer::Renderer(const RenderScene& scene, const FrameSettings& settings) {

@@ -11,17 +11,18 @@
 
 #include "core/isa.h"
 #include "raster/camera.h"
+#include "scene/hit_kind.h"
 #include "scene/scene.h"
 
 namespace shoal {
 
-// Of the sun, the first directional light.
+// Shadows of the sun, the first directional light.
 enum class Shadows : std::uint8_t { kOff, kMap, kRays };
-// What rays see that water sends back to the side that they came from: the background alone, or the scene.
+// What rays hit that water reflects: the background alone, or the scene.
 enum class Reflections : std::uint8_t { kEnvironment, kScene };
 enum class ToneMap : std::uint8_t { kNone, kAces };
 
-// Every buffer that can be asked for beside the picture. Names and channels: aov_infos().
+// Every buffer that can be had beside the picture. Names and channels: aov_infos().
 enum class Aov : std::uint8_t {
   kDepth,
   kNormal,
@@ -45,8 +46,6 @@ struct AovInfo {
   bool is_uint;          // uint32, else float
 };
 const std::vector<AovInfo>& aov_infos();
-
-enum class HitKind : std::uint32_t { kNoWater = 0, kSurface = 1, kSky = 2, kMirror = 3, kMiss = 4 };
 
 struct FrameSettings {
   std::string method = "two-phase";
@@ -114,12 +113,19 @@ class Renderer {
 std::string picture_digest(const Frame& frame);
 
 // Registry of methods (refraction/methods/methods.def), in its order.
+struct MethodOptionInfo {
+  std::string key;
+  std::string default_value;  // as it would be given
+  std::string range;          // what is allowed, in words
+  std::string meaning;        // one sentence without its full stop
+};
 struct MethodInfo {
   const char* name;
+  const char* category;  // raster, volume, hybrid, traced
   const char* description;
   const char* source;
-  std::vector<std::pair<std::string, std::string>> options;  // key, default
-  bool portable = true;                                      // the same bytes on every machine
+  std::vector<MethodOptionInfo> options;
+  bool portable = true;  // the same bytes on every machine
 };
 const std::vector<MethodInfo>& method_infos();
 

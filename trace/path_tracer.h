@@ -23,10 +23,6 @@
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-// True where a surface reflects the scene on the side that a ray comes from, whatever --reflections says: from within
-// the water, and from the denser side (ior below 1), where reflection can be total (docs/decisions/0003).
-SHOAL_INLINE bool always_reflects_scene(bool from_below, float eta) { return from_below || eta > 1.0f; }
-
 // Traces sixteen paths through a scene.
 //   Rays      first_hits(path, t_far): the triangles that the path's lanes hit first; count(kind, lanes) of the rays
 //             traced; blended(): the ray queries for blended triangles, or null where none are composited

@@ -27,6 +27,10 @@ SHOAL_INLINE WaterSide water_side(const WaterBody& body, const WaterSurface* sur
           surface};
 }
 
+// True where a surface reflects the scene on the side that a ray comes from, whatever --reflections says: from within
+// the water, and from the denser side (ior below 1), where reflection can be total (docs/decisions/0003).
+SHOAL_INLINE bool always_reflects_scene(bool from_below, float eta) { return from_below || eta > 1.0f; }
+
 template <class F>
 struct ExactRay {
   F t;  // of the crossing along the view ray, in its direction's lengths (perspective: view depth)

@@ -19,6 +19,7 @@
 #include "raster/camera.h"
 #include "refraction/broad/path_solver.h"
 #include "water/body.h"
+#include "water/exact_ray.h"
 
 namespace shoal {
 
@@ -96,6 +97,15 @@ SHOAL_INLINE BroadPhase make_broad_phase(Vec3f origin_world, Vec3f normal, float
 }
 SHOAL_INLINE BroadPhase make_broad_phase(const WaterBody& body, const View& view) {
   return make_broad_phase(body.origin, body.normal, body.ior, view);
+}
+
+// The flat surface as view rays cross it.
+SHOAL_INLINE WaterSide eye_side(const BroadPhase& bp) {
+  return {bp.plane_origin, -bp.far_normal, bp.eye_below ? bp.path.ior : 1.0f / bp.path.ior};
+}
+template <class F>
+SHOAL_INLINE ExactRay<F> exact_ray(const BroadPhase& bp, Ray<F> ray) {
+  return exact_ray(eye_side(bp), ray);
 }
 
 // Distance of a point from the plane, positive on the far side: what virtual_position refracts.

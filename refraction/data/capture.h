@@ -38,6 +38,15 @@ SHOAL_INLINE void store_hits(HitPoints& hits, std::size_t offset, HitKind kind, 
   store_plane(hits.id, offset, id, lanes);
 }
 
+SHOAL_INLINE void store_interface_target(InterfaceTarget& target, std::size_t offset, const ExactRay<WideF>& at,
+                                         WideM lanes) {
+  store_plane(target.t, offset, at.t, lanes);
+  store_plane(target.normal_world, offset, at.normal, lanes);
+  store_plane(target.slope_variance, offset, at.slope_variance, lanes);
+  store_plane(target.refracted, offset, at.refracted, lanes);
+  store_plane(target.reflected, offset, at.reflected, lanes);
+}
+
 // What G-buffer and hit buffers hold of the water itself: its surface, and, until a later stage finds more, the sky.
 //   roughness  of the waves that the pixel hides
 SHOAL_INLINE void store_water(GBuffer& gbuffer, HitPoints& hits, std::size_t offset, const Vec3<WideF>& crossing,

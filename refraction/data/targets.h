@@ -123,4 +123,9 @@ void visit_planes(T& t, const TargetNeeds& needs, Visit visit) {
 // Makes room for the targets that exist; the others stay empty.
 void allocate(Targets& targets, const FrameGrids& grids, const TargetNeeds& needs);
 
+// Empties what is captured, for a new sample: no surface, no water, no hit.
+void clear_captured(Targets& targets);
+// Empties the layers of blended materials, for a new sample.
+void clear_blended(Targets& targets);
+
 }  // namespace shoal

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/thread_pool.h"
+#include "refraction/data/method_state.h"
 #include "scene/scene.h"
 
 namespace shoal {
@@ -23,10 +24,13 @@ struct DistanceField {
 };
 
 // Both sides of every body of water, and what building them took.
-struct DistanceFields {
+struct DistanceFields : MethodData {
   std::vector<DistanceField> below, above;  // [bodies]
   double build_ms = 0;
   std::size_t bytes() const;
+  std::vector<std::pair<std::string, double>> figures() const override {
+    return {{"field_build_ms", build_ms}, {"field_mb", static_cast<double>(bytes()) / 1048576.0}};
+  }
   // Without a camera both sides of each; with one only those that it looks into, the others stay as they are.
   void build(const RenderScene& scene, const Camera* camera, int resolution, ThreadPool& pool);
 };

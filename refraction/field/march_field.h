@@ -87,7 +87,7 @@ SHOAL_INLINE PlaneHit meet_plane(const GeometryView& g, const Ray<WideF>& ray, W
     p0 = select<WideF>(same, broadcast<WideF>(a), p0);
     e1 = select<WideF>(same, broadcast<WideF>(g.vertices[r.vertex[1]].position_world - a), e1);
     e2 = select<WideF>(same, broadcast<WideF>(g.vertices[r.vertex[2]].position_world - a), e2);
-    if (g.materials[r.material].double_sided) two_sided = two_sided | same;
+    if (g.draw_states[r.material].double_sided) two_sided = two_sided | same;
   });
   const TriangleHit<WideF> hit = intersect_triangle(ray, p0, e1, e2);
   const Vec3<WideF> zero = broadcast<WideF>(Vec3f{0, 0, 0});
@@ -97,7 +97,7 @@ SHOAL_INLINE PlaneHit meet_plane(const GeometryView& g, const Ray<WideF>& ray, W
           lanes & hit.valid & (front | two_sided) & (triangle_distance2(at, zero, e1, e2) <= WideF(reach_m * reach_m))};
 }
 
-// Follows rays until they meet something.
+// Marches rays until they hit something.
 //
 //   body   whose plane's frame the field is in
 //   ray    world, unit direction; of `lanes`

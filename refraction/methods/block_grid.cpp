@@ -5,50 +5,29 @@
 // Differs Bilinear in a block, where his rectangles were drawn as two triangles by the hardware. The floor's point is
 //         interpolated rather than its texture coordinates, which are linear in it where the floor has one mapping.
 //         Waves are the scene's; his are the surface `ripples` with four sources on a grid of 64 x 64 normals.
+#include "refraction/field/floor.h"
 #include "refraction/methods/method.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
-enum Option { kBlock, kOptionCount };
-constexpr MethodOption kOptions[kOptionCount] = {
-    {"block", "8", "pixels a side of the blocks whose corners are traced", MethodOption::Kind::kInt, 1, 32},
+struct Floors : MethodData {
+  std::vector<Floor> of_body;
 };
-
-struct BlockGrid : TrueRays {
-  static constexpr bool kMisses = true;  // what is not floor is not shown
-
-  // From the crossing to the point that was found.
-  SHOAL_INLINE static WaterRays<WideF> pixel_rays(const FrameData& f, const Block& block, const WaterPass& water,
-                                                  const Ray<WideF>& view_ray,
-                                                  const RayDifferential<WideF>& differential) {
-    WaterRays<WideF> r = rays(water, view_ray, differential);
-    const Vec3<WideF> aim = {WideF::load(f.hits.aim_x.data() + block.offset),
-                             WideF::load(f.hits.aim_y.data() + block.offset),
-                             WideF::load(f.hits.aim_z.data() + block.offset)};
-    const Vec3<WideF> way = aim - r.refracted.origin_world;
-    const WideM aimed =
-        is_triangle(WideI::load(f.hits.refracted_id.data() + block.offset)) & (dot(way, way) > WideF(1e-12f));
-    const Vec3<WideF> direction = normalize(select<WideF>(aimed, way, r.refracted.direction_world));
-    r.refracted.direction_world = select<WideF>(aimed, direction, r.refracted.direction_world);
-    return r;
-  }
-};
-using Stages = MethodStages<BlockGrid>;
 
 // The corners that a region's pixels lie between.
 struct Corners {
-  static constexpr int kMost = kRegionSize + 1, kStride = kMost + 15;
+  static constexpr int kMax = kRegionSize + 1, kStride = kMax + 15;
   int first_x, first_y, count_x, count_y;  // in blocks; corners each way
-  float x_m[kMost * kStride], z_m[kMost * kStride];
-  std::int32_t found[kMost * kStride];  // 1 or 0
+  float x_m[kMax * kStride], z_m[kMax * kStride];
+  std::int32_t found[kMax * kStride];  // 1 or 0
 };
 
-// Where the corners' refracted rays meet the floor's plane, along the body's axes.
-__attribute__((noinline)) void trace_corners(const FrameData& f, const WaterPass& water, float floor_m, int block_px,
-                                             Corners& c) {
-  const WaterBody& body = *water.body;
+// Where the corners' refracted rays intersect the floor's plane, along the body's axes.
+__attribute__((noinline)) void find_corners(const View& view, const WaterOptics& optics, float floor_m, int block_px,
+                                            Corners& c) {
+  const WaterBody& body = optics.body();
   const Vec3<WideF> axis_x = broadcast<WideF>(body.axis_x), axis_z = broadcast<WideF>(body.axis_z),
                     normal = broadcast<WideF>(body.normal), origin = broadcast<WideF>(body.origin);
   const float size = static_cast<float>(block_px);
@@ -57,8 +36,8 @@ __attribute__((noinline)) void trace_corners(const FrameData& f, const WaterPass
       alignas(64) float lane_number[16];
       for (int k = 0; k < 16; ++k) lane_number[k] = static_cast<float>(c.first_x + i + k);
       const Ray<WideF> view_ray =
-          pixel_ray(f.view, WideF::load(lane_number) * WideF(size), WideF(static_cast<float>(c.first_y + j) * size));
-      const ExactRay<WideF> at = exact_ray(eye_side(water), view_ray);
+          pixel_ray(view, WideF::load(lane_number) * WideF(size), WideF(static_cast<float>(c.first_y + j) * size));
+      const ExactRay<WideF> at = exact_ray(eye_side(optics), view_ray);
       const Vec3<WideF> from = at.crossing_world - origin;
       const WideF fall = dot(at.refracted, normal), way = WideF(floor_m) - dot(from, normal);
       const WideM falls = at.crosses & at.transmitted & (fall < WideF(0.0f));
@@ -109,53 +88,70 @@ WideI floor_ids(const Floor& floor, const FloorPoint& p, WideM lanes) {
   return WideI::load(ids);
 }
 
-void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
-  const int block_px = static_cast<int>(f.method_option[kBlock]);
-  const Floor& floor = f.floors[static_cast<std::size_t>(water.index)];
-  const WaterBody& body = *water.body;
-  const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
-  Corners corners;
-  bool traced = false;
-  NarrowPhase phase(f, water, region);
-  for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
-    const WideM here = water_lanes(f, water, block);
-    if (none(here)) return;
-    if (!traced) {
-      const int x0 = static_cast<int>(region % static_cast<std::size_t>(f.grid.regions_x)) * kRegionSize;
-      const int y0 = static_cast<int>(region / static_cast<std::size_t>(f.grid.regions_x)) * kRegionSize;
-      corners.first_x = x0 / block_px, corners.first_y = y0 / block_px;
-      corners.count_x = (x0 + kRegionSize - 1) / block_px - corners.first_x + 2;
-      corners.count_y = (y0 + kRegionSize - 1) / block_px - corners.first_y + 2;
-      trace_corners(f, water, floor.height_m, block_px, corners);
-      traced = true;
-    }
-    const WaterRays<WideF> rays = TrueRays::rays(water, block_rays(f.view, block), differential);
-    const FloorPoint p = interpolate(corners, block, block_px);
-    const WideI id = floor_ids(floor, p, here & rays.at_surface.transmitted);
-    const Vec3<WideF> aim = broadcast<WideF>(body.origin + body.normal * floor.height_m) +
-                            broadcast<WideF>(body.axis_x) * p.x_m + broadcast<WideF>(body.axis_z) * p.z_m;
-    store_masked(f.hits.refracted_id.data() + block.offset, id, here);
-    shade_detail::put3(f.hits.aim_x, f.hits.aim_y, f.hits.aim_z, block.offset, aim, here);
-    if (f.blended.any()) note_layer(f, water, false, id, aim, block);
-    phase.mirror(block, rays, here);
-  });
-}
+struct BlockGrid : TrueRays {
+  struct Options {
+    int block = 8;
+  };
+  static constexpr MethodOption kOptions[] = {
+      method_option<&Options::block>("block", 1, 32, "pixels a side of the blocks whose corners are traced"),
+  };
+  // One analytic plane is intersected: the category's stated exception (docs/methods.md).
+  static constexpr MethodCategory kCategory = MethodCategory::kRaster;
+  static constexpr bool kMisses = true;  // what is not floor is not shown
 
-void prepare(FrameData& f, ThreadPool&, const Camera*) {
-  f.floors.clear();
-  for (const WaterBody& body : f.scene->waters) f.floors.push_back(find_floor(*f.scene, body));
-  for (auto* plane : {&f.hits.aim_x, &f.hits.aim_y, &f.hits.aim_z}) plane->resize(f.grid.pixel_slots());
-}
+  static void prepare(const PrepareIn& in, MethodState& state) {
+    auto floors = std::make_unique<Floors>();
+    for (const WaterBody& body : in.scene.waters) floors->of_body.push_back(find_floor(in.scene, body));
+    state.data = std::move(floors);
+  }
+
+  static void narrow(const RasterNarrowIn& in, const NarrowOut& out, std::size_t region) {
+    const int block_px = in.state.options_as<Options>().block;
+    const Floor& floor = in.state.data_as<Floors>().of_body[static_cast<std::size_t>(in.optics.water.index)];
+    const WaterBody& body = in.optics.body();
+    Corners corners;
+    bool found = false;
+    for_each_block(in.grids.frame, region, [&](const Block& block) SHOAL_LAMBDA {
+      const std::size_t at_block = block_in_region(block.x_px, block.y_px);
+      const InterfaceBlock& interface = in.interface.block[at_block];
+      if (interface.shows == 0) return;
+      if (!found) {
+        const RegionOrigin origin = region_origin(in.grids.frame, region);
+        corners.first_x = origin.x_px / block_px, corners.first_y = origin.y_px / block_px;
+        corners.count_x = (origin.x_px + kRegionSize - 1) / block_px - corners.first_x + 2;
+        corners.count_y = (origin.y_px + kRegionSize - 1) / block_px - corners.first_y + 2;
+        find_corners(in.view.view, in.optics, floor.height_m, block_px, corners);
+        found = true;
+      }
+      const FloorPoint p = interpolate(corners, block, block_px);
+      const WideI id = floor_ids(floor, p, mask_from_bits(interface.shows & interface.transmitted));
+      const Vec3<WideF> position = broadcast<WideF>(body.origin + body.normal * floor.height_m) +
+                                   broadcast<WideF>(body.axis_x) * p.x_m + broadcast<WideF>(body.axis_z) * p.z_m;
+      HitBlock& hits = out.hits[at_block];
+      id.store(hits.refracted_id);
+      id.store(hits.refracted_triangle);
+      store3(hits.refracted_position, position);
+    });
+  }
+
+  // From the crossing to the point that was found.
+  static PixelRays<WideF> shown_rays(const PixelRaysIn& in) {
+    const ExactRay<WideF> at = load_interface(in.interface);
+    PixelRays<WideF> r = rays(at, crossing_differential(in, at));
+    const Vec3<WideF> way = load3(in.hits.refracted_position) - r.ray.origin_world;
+    const WideM aimed = is_triangle(WideI::load(in.hits.refracted_id)) & (dot(way, way) > WideF(1e-12f));
+    const Vec3<WideF> direction = normalize(select<WideF>(aimed, way, r.ray.direction_world));
+    r.ray.direction_world = select<WideF>(aimed, direction, r.ray.direction_world);
+    return r;
+  }
+};
 
 }  // namespace
 
 Method block_grid() {
-  return {"block-grid",
-          "rays at block corners, the floor's coordinates interpolated between; for water over a level floor",
-          "Champandard 1999",
-          Stages::kernels_without_layer(&narrow, &prepare),
-          kOptions,
-          kOptionCount};
+  return ray_method<BlockGrid>("block-grid",
+                               "rays at block corners, the floor's coordinates interpolated between; for level floors",
+                               "Champandard 1999");
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -1,5 +1,5 @@
 // distance-field: the true refracted ray, sphere-traced through a voxel distance field of what lies beyond the surface,
-// shaded from the nearest surface there. Nothing of the refracted layer is drawn; reflections are the mirrored pass.
+// shaded from the nearest surface there. Nothing of the refracted layer is drawn; reflections are those of all methods.
 //
 // Source  Liu et al. 2020, reference [13]: Rodgman and Chen 2001, refraction in discretely sampled distance fields.
 // Differs The field says where a ray comes near a surface; what it then meets is the nearest triangle, shaded by its
@@ -13,51 +13,55 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
-enum Option { kResolution, kStop, kSteps, kOptionCount };
-constexpr MethodOption kOptions[kOptionCount] = {
-    {"resolution", "128", "voxels along the field's longest side", MethodOption::Kind::kInt, 8, 512},
-    {"stop", "0.5", "voxels: a ray that passes the nearest triangle no farther meets it", MethodOption::Kind::kFloat, 0,
-     4},
-    {"steps", "512", "of a ray, at most", MethodOption::Kind::kInt, 1, 4096},
+struct DistanceFieldMethod : TrueRays {
+  struct Options {
+    int resolution = 128;
+    float stop = 0.5f;
+    int steps = 512;
+  };
+  static constexpr MethodOption kOptions[] = {
+      method_option<&Options::resolution>("resolution", 8, 512, "voxels along the field's longest side"),
+      method_option<&Options::stop>("stop", 0, 4, "voxels: a ray that passes the nearest triangle no farther hits it"),
+      method_option<&Options::steps>("steps", 1, 4096, "steps of a ray, at most"),
+  };
+  static constexpr MethodCategory kCategory = MethodCategory::kVolume;
+
+  static void prepare(const PrepareIn& in, MethodState& state) {
+    if (state.data == nullptr) state.data = std::make_unique<DistanceFields>();
+    static_cast<DistanceFields&>(*state.data)
+        .build(in.scene, in.camera, state.options_as<Options>().resolution, in.pool);
+  }
+
+  static void narrow(const VolumeNarrowIn& in, const NarrowOut& out, std::size_t region) {
+    const Options& options = in.state.options_as<Options>();
+    const DistanceFields& fields = in.state.data_as<DistanceFields>();
+    const DistanceField& field = (in.optics.exact.eye_below
+                                      ? fields.above
+                                      : fields.below)[static_cast<std::size_t>(in.optics.water.index)];
+    const MarchSettings settings{options.stop, options.steps};
+    for_each_block(in.grids.frame, region, [&](const Block& block) SHOAL_LAMBDA {
+      const std::size_t at_block = block_in_region(block.x_px, block.y_px);
+      const InterfaceBlock& interface = in.interface.block[at_block];
+      if (interface.shows == 0) return;
+      const ExactRay<WideF> at = load_interface(interface);
+      const Ray<WideF> ray{at.crossing_world, at.refracted};
+      const FieldHit hit = march_field(field, in.optics.body(), in.geometry, ray, settings,
+                                       mask_from_bits(interface.shows & interface.transmitted));
+      HitBlock& hits = out.hits[at_block];
+      hit.id.store(hits.refracted_id);
+      if (!in.wants_positions) return;
+      hit.id.store(hits.refracted_triangle);
+      store3(hits.refracted_position, ray.origin_world + ray.direction_world * hit.t);
+    });
+  }
 };
-
-struct DistanceFieldMethod : TrueRays {};
-using Stages = MethodStages<DistanceFieldMethod>;
-
-void prepare(FrameData& f, ThreadPool& pool, const Camera* camera) {
-  if (f.fields == nullptr) f.fields = std::make_unique<DistanceFields>();
-  f.fields->build(*f.scene, camera, static_cast<int>(f.method_option[kResolution]), pool);
-}
-
-void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
-  const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
-  const std::vector<DistanceField>& fields = water.optics.eye_below ? f.fields->above : f.fields->below;
-  const DistanceField& field = fields[static_cast<std::size_t>(water.index)];
-  const MarchSettings settings{f.method_option[kStop], static_cast<int>(f.method_option[kSteps])};
-  NarrowPhase phase(f, water, region);
-  for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
-    const WideM here = water_lanes(f, water, block);
-    if (none(here)) return;
-    const WaterRays<WideF> rays = TrueRays::rays(water, block_rays(f.view, block), differential);
-    const FieldHit hit =
-        march_field(field, *water.body, f.geometry, rays.refracted, settings, here & rays.at_surface.transmitted);
-    store_masked(f.hits.refracted_id.data() + block.offset, hit.id, here);
-    const Ray<WideF>& ray = rays.refracted;
-    if (f.blended.any())
-      note_layer(f, water, false, hit.id, ray.origin_world + ray.direction_world * hit.t, block);
-    phase.mirror(block, rays, here);
-  });
-}
 
 }  // namespace
 
 Method distance_field() {
-  return {"distance-field",
-          "the true refracted ray, sphere-traced through a voxel distance field",
-          "Rodgman and Chen 2001, as Liu et al. 2020 [13]",
-          Stages::kernels_without_layer(&narrow, &prepare),
-          kOptions,
-          kOptionCount};
+  return ray_method<DistanceFieldMethod>("distance-field",
+                                         "the true refracted ray, sphere-traced through a voxel distance field",
+                                         "Rodgman and Chen 2001, as Liu et al. 2020 [13]");
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

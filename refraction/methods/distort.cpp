@@ -9,58 +9,60 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
-enum Option { kStrength, kReflection, kOptionCount };
-constexpr MethodOption kOptions[kOptionCount] = {
-    {"strength", "0.1", "offset in frame heights for a normal that lies on its side", MethodOption::Kind::kFloat, -10,
-     10},
-    {"reflection", "true", "the mirrored picture is pushed too", MethodOption::Kind::kBool, 0, 1},
-};
-
 struct Distort : StraightRays {
-  static constexpr bool kShadesBefore = true, kWholeScene = true;
+  struct Options {
+    float strength = 0.1f;
+    bool reflection = true;
+  };
+  static constexpr MethodOption kOptions[] = {
+      method_option<&Options::strength>("strength", -10, 10, "offset in frame heights for a normal that lies on its side"),
+      method_option<&Options::reflection>("reflection", "the reflected picture is pushed too"),
+  };
+  static constexpr bool kWholeScene = true;
 
-  static LayerPlace pushed(const FrameData& f, const Block& block, const ExactRay<WideF>& at) {
+  static LayerPlace<WideF> pushed(const View& view, const FrameGrid& frame, int x_px, int y_px,
+                                  const ExactRay<WideF>& at, float strength) {
     const Vec3<WideF> n = at.plane_normal, tangential = at.normal - n * dot(at.normal, n);
-    const Camera& camera = f.view.camera;
-    const WideF scale(f.method_option[kStrength] * static_cast<float>(f.grid.height_px));
-    const LayerPlace own = own_place(block);
+    const Camera& camera = view.camera;
+    const WideF scale(strength * static_cast<float>(frame.height_px));
+    const LayerPlace<WideF> own = own_place(x_px, y_px);
     return {own.x_px + dot(tangential, broadcast<WideF>(camera.right_world)) * scale,
             own.y_px - dot(tangential, broadcast<WideF>(camera.up_world)) * scale};
   }
 
-  static LayerPlace look(const LookUp& l) { return pushed(l.f, l.block, l.at); }
+  static LayerPlace<WideF> sample_place(const SampleIn& in) {
+    return pushed(in.view(), in.narrow.grids.frame, in.block.x_px, in.block.y_px, in.at, in.options<Options>().strength);
+  }
 
   // What a flat mirror shows at the pushed place: that place's own reflected ray.
-  static void mirror(const FrameData& f, const WaterPass& water, const Block& block, WaterRays<WideF>& rays) {
-    if (water.surface == nullptr || f.method_option[kReflection] == 0.0f) return;
-    const LayerPlace to = pushed(f, block, rays.at_surface);
+  static PixelRays<WideF> reflected_rays(const PixelRaysIn& in) {
+    const Options& options = *static_cast<const Options*>(in.options);
+    const ExactRay<WideF> at = load_interface(in.interface);
+    const PixelRays<WideF> own = shoal::reflected_rays(in, at);
+    if (in.optics.surface() == nullptr || !options.reflection) return own;
+    const LayerPlace<WideF> to = pushed(in.view, in.frame, in.x_px, in.y_px, at, options.strength);
     const WideF half(0.5f);
     const Ray<WideF> view_ray =
-        pixel_ray(f.view, clamp(to.x_px, half, WideF(static_cast<float>(f.grid.width_px)) - half),
-                  clamp(to.y_px, half, WideF(static_cast<float>(f.grid.height_px)) - half));
-    const ExactRay<WideF> flat = exact_ray(water.optics, view_ray);
+        pixel_ray(in.view, clamp(to.x_px, half, WideF(static_cast<float>(in.frame.width_px)) - half),
+                  clamp(to.y_px, half, WideF(static_cast<float>(in.frame.height_px)) - half));
+    const ExactRay<WideF> flat = exact_ray(in.optics.exact, view_ray);
     const RayDifferential<WideF> d =
-        reflected_differential(at_crossing(view_ray, pixel_ray_differential<WideF>(f.view), flat), flat);
-    const Ray<WideF> own = rays.reflected;
-    const RayDifferential<WideF> own_d = rays.reflected_differential;
+        reflected_differential(at_crossing(view_ray, pixel_ray_differential<WideF>(in.view), flat), flat);
     const WideM on = flat.crosses;
-    rays.reflected = {select<WideF>(on, flat.crossing_world, own.origin_world),
-                      select<WideF>(on, flat.reflected, own.direction_world)};
-    rays.reflected_differential = {
-        select<WideF>(on, d.origin_dx, own_d.origin_dx), select<WideF>(on, d.origin_dy, own_d.origin_dy),
-        select<WideF>(on, d.direction_dx, own_d.direction_dx), select<WideF>(on, d.direction_dy, own_d.direction_dy)};
+    return {{select<WideF>(on, flat.crossing_world, own.ray.origin_world),
+             select<WideF>(on, flat.reflected, own.ray.direction_world)},
+            {select<WideF>(on, d.origin_dx, own.differential.origin_dx),
+             select<WideF>(on, d.origin_dy, own.differential.origin_dy),
+             select<WideF>(on, d.direction_dx, own.differential.direction_dx),
+             select<WideF>(on, d.direction_dy, own.differential.direction_dy)}};
   }
 };
 
 }  // namespace
 
 Method distort() {
-  return {"distort",
-          "the frame pushed across the screen by the waves' normal",
-          "Liu, Han and Fei 2020, Figs. 14 and 15",
-          ShadeBeforeStages<Distort>::kernels(),
-          kOptions,
-          kOptionCount};
+  return image_space_method<Distort>("distort", "the frame pushed across the screen by the waves' normal",
+                                     "Liu, Han and Fei 2020, Figs. 14 and 15");
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

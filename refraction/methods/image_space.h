@@ -1,122 +1,89 @@
-// Methods that shade before: the layer beyond the water is lit as a picture of its own, and each water pixel looks into
-// that picture somewhere.
+// Image-space methods: the layer beyond the water is lit as a picture of its own, and each water pixel samples that
+// picture at a place that the method finds.
 //
 //   struct MyMethod {
-//     static constexpr bool kShadesBefore = true;
-//     static constexpr bool kWholeScene = false;                    // true: the layer is the frame without its water
-//     static BroadPhase map(const WaterBody&, const View&);         // as of a method that shades after
-//     template <class F> static WaterRays<F> rays(const WaterPass&, Ray<F> view_ray, RayDifferential<F>);
-//     static LayerPlace look(const LookUp&);                        // where each water pixel looks in the layer
-//     // If its map is no BroadPhase: one as MappedProgram's, and the option that has edges split.
-//     static MyMap own_map(const FrameData&, const WaterPass&);
-//     static constexpr int kSplitsEdges = kTessellate;
-//     // If the surface is to mirror something else than its true ray shows:
-//     static void mirror(const FrameData&, const WaterPass&, const Block&, WaterRays<WideF>&);
+//     static constexpr bool kWholeScene = false;               // true: the layer is the frame without its water
+//     static constexpr bool kFollowsWaves = true;
+//     static BroadPhase map(const WaterBody&, const View&);    // as of a ray-primitive method
+//     template <class F> static PixelRays<F> rays(const ExactRay<F>& at, const RayDifferential<F>& crossing);
+//     static LayerPlace<WideF> sample_place(const SampleIn&);  // where each water pixel samples the layer
+//     // Optional: a map that is no BroadPhase, in the form of MappedProgram's (passes/vertex_programs.h); `splits`:
+//     // bent edges are split
+//     static MyMap own_map(const WaterOptics&, const Options&);
+//     static bool splits_edges(const Options&);
+//     // Optional: reflected rays other than those of the surface
+//     static PixelRays<WideF> reflected_rays(const PixelRaysIn&);
 //   };
 //
-// ShadeBeforeStages<MyMethod>::kernels() makes the frame's stages of it. Surface, reflection, Fresnel, absorption and
-// shadows are those of all methods, so that pictures differ by what is seen through the water alone.
+// ImageSpaceKernels<MyMethod>::kernels() makes the frame's kernels of it. Surface, reflection, Fresnel, absorption and
+// shadows are those of all methods, so that pictures differ by what is seen through the water alone. Image-space
+// methods are of the category raster.
 #pragma once
 
-#include "refraction/passes/front_ends.h"
 #include "refraction/methods/method.h"
+#include "refraction/narrow/sample_place.h"
+#include "refraction/passes/vertex_programs.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-// The option of a method with a map of its own, whose source may leave edges straight.
-inline constexpr MethodOption kTessellateOption{
-    "tessellate", "true", "split edges that the broad phase bends", MethodOption::Kind::kBool, 0, 1};
-
 template <class M>
-concept HasOwnMap = requires(const FrameData& f, const WaterPass& water) {
-  M::own_map(f, water);
+concept ImageSpaceMethod = requires(const WaterBody& body, const View& view, const SampleIn& in) {
+  { M::kWholeScene } -> std::convertible_to<bool>;
+  { M::map(body, view) } -> std::same_as<BroadPhase>;
+  { M::sample_place(in) } -> std::same_as<LayerPlace<WideF>>;
 };
-
-// What a narrow phase may know of sixteen pixels.
-struct LookUp {
-  const FrameData& f;
-  const WaterPass& water;
-  const Block& block;
-  Ray<WideF> view_ray;
-  const ExactRay<WideF>& at;  // where it meets the surface, waves and all
-  WideM lanes;                // that look: water, not totally reflecting
-};
-
-// A place in the layer, in pixels: a texel's sample is at its index + 0.5. Outside of the frame it is brought to the
-// edge.
-struct LayerPlace {
-  WideF x_px, y_px;
-};
-
-// The pixels' own places.
-SHOAL_INLINE LayerPlace own_place(const Block& block) {
-  return {to_float(WideI(block.x_px) + block_x()) + WideF(0.5f), to_float(WideI(block.y_px) + block_y()) + WideF(0.5f)};
-}
-
-// Where a point of the layer's space shows; behind the eye, far off.
-SHOAL_INLINE LayerPlace project_place(const View& view, Vec3<WideF> p) {
-  const ClipVertex<WideF> clip = project(view, p);
-  const WideF inverse_w = WideF(1.0f) / max(clip.w, WideF(1e-6f));
-  return {clip.x * inverse_w + WideF(view.centre_px.x), clip.y * inverse_w + WideF(view.centre_px.y)};
-}
-
-SHOAL_INLINE LayerPlace select_place(WideM m, LayerPlace a, LayerPlace b) {
-  return {select(m, a.x_px, b.x_px), select(m, a.y_px, b.y_px)};
-}
-
-// Lights one region of the refracted layer into FrameData::layer: each pixel at its own point, where the ray through
-// flat water (of a whole scene: the straight ray) meets the triangle drawn there.
-void light_layer(FrameData& f, const WaterPass& water, std::size_t region, bool whole_scene);
-
-// Fetches the layer, bilinear, for the lanes of a block, and absorbs each texel's light on its way from there to the
-// surface. Writes FrameData::fetched and hits.refracted_id: the nearest texel's triangle. A point is mixed as light is
-// where all four texels are of one drawable, else it is the nearest's.
-void fetch_layer(FrameData& f, const WaterPass& water, const Block& block, const ExactRay<WideF>& at, LayerPlace place,
-                 WideM lanes);
-
 template <class M>
-struct ShadeBeforeStages {
-  static void light(FrameData& f, const WaterPass& water, std::size_t region) {
-    light_layer(f, water, region, M::kWholeScene);
-  }
+concept HasOwnMap = requires(const WaterOptics& optics, const typename M::Options& options) {
+  M::own_map(optics, options);
+};
+template <class M>
+concept HasOwnReflectedRays = requires(const PixelRaysIn& in) { M::reflected_rays(in); };
 
-  static void narrow(FrameData& f, const WaterPass& water, std::size_t region) {
-    const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
-    NarrowPhase phase(f, water, region);
-    for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
-      const WideM here = water_lanes(f, water, block);
-      if (none(here)) return;
-      const Ray<WideF> view_ray = block_rays(f.view, block);
-      WaterRays<WideF> rays = M::template rays<WideF>(water, view_ray, differential);
-      if constexpr (MirrorsItsWay<M>) M::mirror(f, water, block, rays);
-      const WideM through = here & rays.at_surface.transmitted;
-      if (any(through)) {
-        const LayerPlace place = M::look(LookUp{f, water, block, view_ray, rays.at_surface, through});
-        fetch_layer(f, water, block, rays.at_surface, place, through);
-      }
-      phase.mirror(block, rays, here);
+template <ImageSpaceMethod M>
+struct ImageSpaceKernels {
+  // Everything that the fetch reads beside the inputs of a raster method is hidden from sample_place.
+  static void narrow(const HybridNarrowIn& in, const NarrowOut& out, std::size_t region) {
+    const RasterNarrowIn& raster = in;
+    const FetchIn fetch{in.scene, in.view, in.grids, in.optics, in.layer, in.lit};
+    for_each_block(in.grids.frame, region, [&](const Block& block) SHOAL_LAMBDA {
+      const std::size_t at_block = block_in_region(block.x_px, block.y_px);
+      const InterfaceBlock& interface = in.interface.block[at_block];
+      const WideM through = mask_from_bits(interface.shows & interface.transmitted);
+      if (none(through)) return;
+      const ExactRay<WideF> at = load_interface(interface);
+      const LayerPlace<WideF> place =
+          M::sample_place(SampleIn{raster, block, block_rays(in.view.view, block), at, through});
+      fetch_layer(fetch, block, at, place, through, out.hits[at_block], out.fetched[at_block]);
     });
   }
 
-  template <class Map>
-  static MappedProgram<Map> program(const FrameData& f, const WaterPass& water, const Map& map) {
-    return {{water, f.view}, map, f.method_option[M::kSplitsEdges] != 0.0f};
+  static void reflected_rays(const PixelRaysIn& in, RaysBlock& out) requires HasOwnReflectedRays<M> {
+    store_rays(M::reflected_rays(in), out);
   }
-  static void refracted_front_end(FrameData& f, const WaterPass& water, std::size_t work_item) requires HasOwnMap<M> {
-    const auto map = M::own_map(f, water);
-    opaque_work_item(f, program(f, water, map), water.pass, work_item);
+
+  static void refracted_front_end(const LayerPassIn& in, const BinsOut& out,
+                                  std::size_t work_item) requires HasOwnMap<M> {
+    const auto& options = in.state.options_as<typename M::Options>();
+    const auto map = M::own_map(*in.pass.optics, options);
+    const MappedProgram program(in.pass, in.view.view, map, M::splits_edges(options));
+    run_work_item(in.geometry, program, in.pass.pass, out.bins, work_item);
   }
-  static void blended_front_end(FrameData& f, const WaterPass& water, std::size_t work_item) requires HasOwnMap<M> {
-    const auto map = M::own_map(f, water);
-    blended_work_item(f, program(f, water, map), water.pass, true, work_item);
+  static void blended_front_end(const BlendedPassIn& in, const BinsOut& out,
+                                std::size_t work_item) requires HasOwnMap<M> {
+    const auto& options = in.state.options_as<typename M::Options>();
+    const auto map = M::own_map(*in.pass->optics, options);
+    const MappedProgram program(*in.pass, in.view.view, map, M::splits_edges(options));
+    run_work_item(in.geometry, program, blended_settings(in), in.meshlets.data(), out.bins, work_item);
   }
 
   static constexpr MethodKernels kernels() {
-    MethodKernels k = MethodStages<M>::kernels();
-    k.narrow = &narrow;
-    k.light_layer = &light;
-    k.follows_waves = false;
+    MethodKernels k;
+    k.map = &M::map;
+    k.lights_layer = true;
     k.whole_scene = M::kWholeScene;
+    k.rays = k.shown_rays = &rays_of_method<M>;
+    k.narrow = &narrow;
+    if constexpr (HasOwnReflectedRays<M>) k.own_reflected = &reflected_rays;
     if constexpr (HasOwnMap<M>) {
       k.refracted_front_end = &refracted_front_end;
       k.blended_front_end = &blended_front_end;
@@ -124,5 +91,11 @@ struct ShadeBeforeStages {
     return k;
   }
 };
+
+// The method's entry in the registry.
+template <ImageSpaceMethod M>
+constexpr Method image_space_method(const char* name, const char* description, const char* source) {
+  return {name, MethodCategory::kRaster, description, source, ImageSpaceKernels<M>::kernels(), options_of<M>()};
+}
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "core/isa_dispatch.h"
-#include "refraction/kernels.h"
+#include "refraction/methods/kernels.h"
 
 namespace shoal {
 

@@ -10,52 +10,50 @@
 //         before it is projected: so flat water shows each pixel itself.
 //         as-printed=true has line 8, the turned view ray and the projection as they are printed.
 #include "refraction/broad/path_length_map.h"
-#include "refraction/narrow/plane_intersection.h"
 #include "refraction/methods/image_space.h"
+#include "refraction/narrow/plane_intersection.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
-enum Option { kAsPrinted, kTessellate, kOptionCount };
-constexpr MethodOption kOptions[kOptionCount] = {
-    {"as-printed", "false", "the algorithms to the letter, misprints included", MethodOption::Kind::kBool, 0, 1},
-    kTessellateOption,
-};
-
 struct Liu2020 : TrueRays {
-  static constexpr bool kShadesBefore = true, kWholeScene = false;
-  static constexpr int kSplitsEdges = kTessellate;
+  struct Options {
+    bool as_printed = false, tessellate = true;
+  };
+  static constexpr MethodOption kOptions[] = {
+      method_option<&Options::as_printed>("as-printed", "the algorithms to the letter, misprints included"),
+      method_option<&Options::tessellate>("tessellate", "split edges that the broad phase bends"),
+  };
+  static constexpr bool kWholeScene = false;
 
-  static PathLengthMap own_map(const FrameData& f, const WaterPass& water) {
-    return {water.optics, f.method_option[kAsPrinted] != 0.0f};
+  static PathLengthMap own_map(const WaterOptics& optics, const Options& options) {
+    return {optics.exact, options.as_printed};
+  }
+  static bool splits_edges(const Options& options) { return options.tessellate; }
+
+  static LayerPlace<WideF> sample_place(const SampleIn& in) {
+    const Options& options = in.options<Options>();
+    if (options.as_printed) return printed_place(in);
+    const Ray<WideF> ray{in.at.crossing_world, in.at.refracted};
+    const Vec3<WideF> hit = ray.origin_world + ray.direction_world * plane_distance(in, ray);
+    return project_place(in.view(), own_map(in.optics(), options).position(hit));
   }
 
-  static LayerPlace look(const LookUp& l) {
-    if (l.f.method_option[kAsPrinted] != 0.0f) return printed_look(l);
-    const Ray<WideF> ray{l.at.crossing_world, l.at.refracted};
-    const Vec3<WideF> met = ray.origin_world + ray.direction_world * plane_look(l, ray);
-    return project_place(l.f.view, own_map(l.f, l.water).position(met));
-  }
-
-  // Algorithm 2 to the letter: the view ray, turned as the waves turn the normal (two mirrors in a row), meets the
+  // Algorithm 2 to the letter: the view ray, turned as the waves turn the normal (two mirrors in a row), intersects the
   // plane in the world and is projected as it is.
-  static LayerPlace printed_look(const LookUp& l) {
-    const Vec3<WideF> a = l.at.plane_normal, s = a + l.at.normal, d = reflect(l.at.incident, a);
-    const Ray<WideF> ray{l.at.crossing_world, d - s * (WideF(2.0f) * dot(s, d) / dot(s, s))};
-    return project_place(l.f.view, ray.origin_world + ray.direction_world * plane_look(l, ray));
+  static LayerPlace<WideF> printed_place(const SampleIn& in) {
+    const Vec3<WideF> a = in.at.plane_normal, s = a + in.at.normal, d = reflect(in.at.incident, a);
+    const Ray<WideF> ray{in.at.crossing_world, d - s * (WideF(2.0f) * dot(s, d) / dot(s, s))};
+    return project_place(in.view(), ray.origin_world + ray.direction_world * plane_distance(in, ray));
   }
 };
 
 }  // namespace
 
 Method liu_2020() {
-  return {"liu-2020",
-          "path-length-preserving broad phase, plane narrow phase, shaded before",
-          "Liu, Han and Fei 2020",
-          ShadeBeforeStages<Liu2020>::kernels(),
-          kOptions,
-          kOptionCount};
+  return image_space_method<Liu2020>("liu-2020", "path-length-preserving broad phase, plane narrow phase, image space",
+                                     "Liu, Han and Fei 2020");
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -8,6 +8,11 @@
 
 namespace shoal {
 
+const char* category_name(MethodCategory category) {
+  constexpr const char* kNames[] = {"raster", "volume", "hybrid", "traced"};
+  return kNames[static_cast<std::size_t>(category)];
+}
+
 const FrameKernels& frame_kernels(Isa isa) { return kernel_table(isa).frame; }
 
 const Method& find_method(const std::string& name, Isa isa) {
@@ -26,9 +31,10 @@ const std::vector<MethodInfo>& method_infos() {
     const KernelTable& table = kernel_table(best_isa());
     for (std::size_t i = 0; i < table.method_count; ++i) {
       const Method& method = table.methods[i];
-      list.push_back({method.name, method.description, method.source, {}, method.portable});
-      for (std::size_t k = 0; k < method.option_count; ++k)
-        list.back().options.emplace_back(method.options[k].key, method.options[k].standard);
+      list.push_back({method.name, category_name(method.category), method.description, method.source, {}, method.portable});
+      for (const MethodOption& option : method.options.fields)
+        list.back().options.push_back(
+            {option.key, option_text(option, option.default_value), option_range(option), option.meaning});
     }
     return list;
   }();

@@ -4,46 +4,47 @@
 // Source  McGuire and Mara 2014, Listing 2; as Liu et al. 2020 compare with it (Figs. 4, 10 and 11).
 // Differs The jitter is a fixed 4 x 4 pattern (Bayer's) in place of one of pixel coordinates and time. Where the ray
 //         leaves the frame, runs out of steps or of length, the pixel's own unrefracted colour shows.
+#include "refraction/methods/image_space.h"
 #include "refraction/narrow/march_depth.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
-enum Option { kStride, kThickness, kJitter, kMaxSteps, kMaxDistance, kOptionCount };
-constexpr MethodOption kOptions[kOptionCount] = {
-    {"stride", "1", "pixels a step", MethodOption::Kind::kFloat, 1, 64},
-    {"thickness", "0.5", "metres that what is drawn reaches back", MethodOption::Kind::kFloat, 0.001f, 1000},
-    {"jitter", "0", "of the first step, in strides", MethodOption::Kind::kFloat, 0, 1},
-    {"max-steps", "512", "of the march", MethodOption::Kind::kInt, 1, 16384},
-    {"max-distance", "100", "metres that the refracted ray goes", MethodOption::Kind::kFloat, 0.01f, 1e6f},
-};
-
 struct ScreenSpace : StraightRays {
-  static constexpr bool kShadesBefore = true, kWholeScene = true;
+  struct Options {
+    float stride = 1, thickness = 0.5f, jitter = 0;
+    int max_steps = 512;
+    float max_distance = 100;
+  };
+  static constexpr MethodOption kOptions[] = {
+      method_option<&Options::stride>("stride", 1, 64, "pixels a step"),
+      method_option<&Options::thickness>("thickness", 0.001f, 1000, "metres that what is drawn reaches back"),
+      method_option<&Options::jitter>("jitter", 0, 1, "of the first step, in strides"),
+      method_option<&Options::max_steps>("max-steps", 1, 16384, "steps of the march"),
+      method_option<&Options::max_distance>("max-distance", 0.01f, 1e6f, "metres that the refracted ray goes"),
+  };
+  static constexpr bool kWholeScene = true;
 
-  static LayerPlace look(const LookUp& l) {
+  static LayerPlace<WideF> sample_place(const SampleIn& in) {
     alignas(64) static constexpr float kBayer[16] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
-    const float* option = l.f.method_option;
+    const Options& options = in.options<Options>();
     DepthMarch how;
-    how.stride_px = option[kStride];
-    how.thickness_m = option[kThickness];
-    how.max_steps = static_cast<int>(option[kMaxSteps]);
-    const WideF jitter = WideF::load(kBayer) * WideF(option[kJitter] / 16.0f);
-    const Vec3<WideF> from = l.at.crossing_world;
-    return march_depth(l, from, from + l.at.refracted * WideF(option[kMaxDistance]), jitter, how).place;
+    how.stride_px = options.stride;
+    how.thickness_m = options.thickness;
+    how.max_steps = options.max_steps;
+    const WideF jitter = WideF::load(kBayer) * WideF(options.jitter / 16.0f);
+    const Vec3<WideF> from = in.at.crossing_world;
+    return march_depth(in, from, from + in.at.refracted * WideF(options.max_distance), jitter, how).place;
   }
 };
 
 }  // namespace
 
 Method screen_space() {
-  return {"screen-space",
-          "the refracted ray marched through the depth of the frame without its water",
-          "McGuire and Mara 2014",
-          ShadeBeforeStages<ScreenSpace>::kernels(),
-          kOptions,
-          kOptionCount};
+  return image_space_method<ScreenSpace>("screen-space",
+                                         "the refracted ray marched through the depth of the frame without its water",
+                                         "McGuire and Mara 2014");
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -10,64 +10,71 @@
 //         the fixed point has no solution or no eye: the exact map is used. Edges are split as two-phase has them split
 //         (the source leaves that to the mesh). The underwater picture has the frame's own resolution.
 #include "refraction/broad/fixed_point_map.h"
+#include "refraction/methods/image_space.h"
 #include "refraction/narrow/march_depth.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
-enum Option { kSteps, kPom, kPomSteps, kTessellate, kOptionCount };
-constexpr MethodOption kOptions[kOptionCount] = {
-    {"steps", "4", "of the fixed point", MethodOption::Kind::kInt, 1, 64},
-    {"pom", "false", "parallax occlusion mapping: march to what the bent ray meets", MethodOption::Kind::kBool, 0, 1},
-    {"pom-steps", "128", "pixels that the march may go", MethodOption::Kind::kInt, 1, 4096},
-    kTessellateOption,
-};
-
-// Beyond everything: where nothing is drawn, the direction alone counts.
+// Where nothing is drawn the ray counts as this long, so that its direction alone matters.
 constexpr float kOpen_m = 1e4f;
 
 struct Steel2024 : TrueRays {
-  static constexpr bool kShadesBefore = true, kWholeScene = false;
-  static constexpr int kSplitsEdges = kTessellate;
+  struct Options {
+    int steps = 4;
+    bool pom = false;
+    int pom_steps = 128;
+    bool tessellate = true;
+  };
+  static constexpr MethodOption kOptions[] = {
+      method_option<&Options::steps>("steps", 1, 64, "steps of the fixed point"),
+      method_option<&Options::pom>("pom", "parallax occlusion mapping: march to what the bent ray hits"),
+      method_option<&Options::pom_steps>("pom-steps", 1, 4096, "pixels that the march may go"),
+      method_option<&Options::tessellate>("tessellate", "split edges that the broad phase bends"),
+  };
+  static constexpr bool kWholeScene = false;
 
-  static FixedPointMap own_map(const FrameData& f, const WaterPass& water) {
-    return {water.optics, static_cast<int>(f.method_option[kSteps])};
+  static FixedPointMap own_map(const WaterOptics& optics, const Options& options) {
+    return {optics.exact, options.steps};
   }
+  static bool splits_edges(const Options& options) { return options.tessellate; }
 
-  static LayerPlace look(const LookUp& l) {
-    const Vec3<WideF> n = l.at.plane_normal;
+  static LayerPlace<WideF> sample_place(const SampleIn& in) {
+    const Options& options = in.options<Options>();
+    const Vec3<WideF> n = in.at.plane_normal;
     // virt_z_ratio: what flat water's ray is shrunk by along the normal to be the straight view ray again.
-    const ExactRay<WideF> flat = exact_ray(l.water.optics, l.view_ray);
+    const ExactRay<WideF> flat = exact_ray(in.optics().exact, in.view_ray);
     const WideF flat_cos = max(-dot(flat.refracted, n), WideF(1e-3f));
     const WideF ratio = -dot(flat.incident, n) * flat.eta / flat_cos;
-    const Vec3<WideF> along = n * dot(l.at.refracted, n);
-    const Vec3<WideF> virtual_direction = normalize(l.at.refracted - along + along * ratio);
+    const Vec3<WideF> along = n * dot(in.at.refracted, n);
+    const Vec3<WideF> virtual_direction = normalize(in.at.refracted - along + along * ratio);
 
     // uw_dist_planar: the rest of the view ray, in virtual space.
-    const WideF drawn = WideF::load(l.f.refracted.depth.data() + l.f.layers.offset(l.block.x_px, l.block.y_px));
-    const WideM shows = l.lanes & (drawn > WideF(0.0f));
-    const WideF depth_m = view_depth_m(l.f.view, select(shows, drawn, WideF(1.0f)));
-    const WideF beyond = max((depth_m - l.at.t) * length(l.view_ray.direction_world), WideF(0.0f));
+    const LayerView& layer = in.narrow.layer;
+    const WideF drawn = WideF::load(layer.depth() + layer.grid().offset(in.block.x_px, in.block.y_px));
+    const WideM shows = in.lanes & (drawn > WideF(0.0f));
+    const WideF depth_m = view_depth_m(in.view(), select(shows, drawn, WideF(1.0f)));
+    const WideF beyond = max((depth_m - in.at.t) * length(in.view_ray.direction_world), WideF(0.0f));
     const WideF distance = select(shows, beyond, WideF(kOpen_m));
-    const LayerPlace parallax = project_place(l.f.view, l.at.crossing_world + virtual_direction * distance);
-    if (l.f.method_option[kPom] == 0.0f) return parallax;
+    const LayerPlace<WideF> parallax =
+        project_place(in.view(), in.at.crossing_world + virtual_direction * distance);
+    if (!options.pom) return parallax;
 
     DepthMarch how;
     how.solid = true;
-    how.max_steps = static_cast<int>(l.f.method_option[kPomSteps]);
-    const MarchedPlace marched =
-        march_depth(l, l.at.crossing_world, l.at.crossing_world + virtual_direction * WideF(kOpen_m), WideF(0.0f), how);
-    return select_place(marched.met, marched.place, parallax);
+    how.max_steps = options.pom_steps;
+    const MarchedPlace marched = march_depth(
+        in, in.at.crossing_world, in.at.crossing_world + virtual_direction * WideF(kOpen_m), WideF(0.0f), how);
+    return select_place(marched.hit, marched.place, parallax);
   }
 };
 
 }  // namespace
 
 Method steel_2024() {
-  return {"steel-2024", "fixed-point apparent depth, parallax narrow phase, shaded before",
-          "Steel 2024", ShadeBeforeStages<Steel2024>::kernels(),
-          kOptions,     kOptionCount};
+  return image_space_method<Steel2024>("steel-2024", "fixed-point apparent depth, parallax narrow phase, image space",
+                                       "Steel 2024");
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -6,27 +6,27 @@
 //         buffer counts, brought to where it was crossed (parallax occlusion mapping: Tatarchuk 2006).
 #pragma once
 
-#include "refraction/methods/image_space.h"
+#include "refraction/narrow/sample_place.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
 struct DepthMarch {
   float stride_px = 1;    // > 0
   float thickness_m = 0;  // of what is drawn, along the view axis; > 0
-  bool solid = false;     // without end: the thickness is not asked for
+  bool solid = false;     // what is drawn reaches back without end; thickness_m is not used
   int max_steps = 1;
 };
 
 struct MarchedPlace {
-  LayerPlace place;  // the texel met; solid: between two texels, where the line went behind
-  WideM met;
+  LayerPlace<WideF> place;  // the texel hit; solid: between two texels, where the line went behind
+  WideM hit;
 };
 
-//   l         the pixels
-//   from, to  ends of the line in the space that the refracted buffer is drawn in, world metres
+//   in        the pixels
+//   from, to  ends of the line in the space that the refracted layer is drawn in, world metres
 //   jitter    of the first step, in strides, 0 to 1
-// Returns what is met within the frame. A line that leaves the frame, goes behind the eye or is out of steps has met
+// Returns the hit within the frame. A line that leaves the frame, goes behind the eye or runs out of steps hits
 // nothing, and its place is the pixel's own.
-MarchedPlace march_depth(const LookUp& l, Vec3<WideF> from, Vec3<WideF> to, WideF jitter, const DepthMarch& how);
+MarchedPlace march_depth(const SampleIn& in, Vec3<WideF> from, Vec3<WideF> to, WideF jitter, const DepthMarch& how);
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -7,7 +7,7 @@ namespace {
 
 // An end of the line: its place, the depth over w (for perspective 1) and 1 / w.
 struct End {
-  LayerPlace place;
+  LayerPlace<WideF> place;
   WideF q, k;
 };
 
@@ -23,9 +23,10 @@ SHOAL_INLINE WideF depth_of(const View& view, Vec3<WideF> p) {
 
 }  // namespace
 
-MarchedPlace march_depth(const LookUp& l, Vec3<WideF> from, Vec3<WideF> to, WideF jitter, const DepthMarch& how) {
-  const FrameData& f = l.f;
-  const View& view = f.view;
+MarchedPlace march_depth(const SampleIn& in, Vec3<WideF> from, Vec3<WideF> to, WideF jitter, const DepthMarch& how) {
+  const View& view = in.view();
+  const FrameGrid& frame = in.narrow.grids.frame;
+  const LayerView& layer = in.narrow.layer;
   const WideF one(1.0f), half(0.5f);
 
   // Cut at the near plane.
@@ -35,15 +36,15 @@ MarchedPlace march_depth(const LookUp& l, Vec3<WideF> from, Vec3<WideF> to, Wide
   const Vec3<WideF> end = select<WideF>(behind, from + (to - from) * clamp(cut, WideF(0.0f), one), to);
   const End a = project_end(view, from, depth_from), b = project_end(view, end, max(depth_of(view, end), near_m));
 
-  // Steps along the longer axis; a line of no length still looks at one pixel.
+  // Steps along the longer axis; a line of no length still samples one pixel.
   const WideF dx = b.place.x_px - a.place.x_px, dy = b.place.y_px - a.place.y_px;
   const WideF share = WideF(how.stride_px) / max(max(abs(dx), abs(dy)), WideF(0.01f));
   const WideF dq = b.q - a.q, dk = b.k - a.k;
-  const WideF width(static_cast<float>(f.grid.width_px)), height(static_cast<float>(f.grid.height_px));
-  const WideI margin(f.layers.margin_px);
+  const WideF width(static_cast<float>(frame.width_px)), height(static_cast<float>(frame.height_px));
+  const WideI margin(layer.grid().margin_px);
 
-  WideM open = l.lanes, met = mask_from_bits(0);
-  LayerPlace found = own_place(l.block);
+  WideM open = in.lanes, any_hit = mask_from_bits(0);
+  LayerPlace<WideF> found = own_place(in.block.x_px, in.block.y_px);
   WideF previous = depth_from, gap_before(0.0f);
   for (int i = 0; i < how.max_steps && any(open); ++i) {
     const WideF u = (WideF(static_cast<float>(i)) + jitter) * share;
@@ -51,8 +52,8 @@ MarchedPlace march_depth(const LookUp& l, Vec3<WideF> from, Vec3<WideF> to, Wide
     open = open & (u <= one) & (x >= WideF(0.0f)) & (y >= WideF(0.0f)) & (x < width) & (y < height);
     if (none(open)) break;
     const WideI x_px = to_int_trunc(select(open, x, WideF(0.0f))), y_px = to_int_trunc(select(open, y, WideF(0.0f)));
-    const WideI slot = pixel_slots(f.layers.grid, x_px + margin, y_px + margin);
-    const WideF drawn = gather(f.refracted.depth.data(), slot, open, WideF(0.0f));
+    const WideI slot = pixel_slots(layer.grid().grid, x_px + margin, y_px + margin);
+    const WideF drawn = gather(layer.depth(), slot, open, WideF(0.0f));
     const WideM shows = open & (drawn > WideF(0.0f));
     const WideF scene = view_depth_m(view, select(shows, drawn, one));
     const WideF u_here = how.solid ? u : u + share * half;
@@ -60,7 +61,7 @@ MarchedPlace march_depth(const LookUp& l, Vec3<WideF> from, Vec3<WideF> to, Wide
     const WideF nearer = min(previous, here), farther = max(previous, here);
     WideM hit = shows & (farther >= scene);
     if (!how.solid) hit = hit & (nearer <= scene + WideF(how.thickness_m));
-    LayerPlace place{to_float(x_px) + half, to_float(y_px) + half};
+    LayerPlace<WideF> place{to_float(x_px) + half, to_float(y_px) + half};
     if (how.solid) {
       // Between the last step in front and this one, as if the buffer were straight there.
       const WideF gap = here - scene, sum = gap - gap_before;
@@ -71,11 +72,11 @@ MarchedPlace march_depth(const LookUp& l, Vec3<WideF> from, Vec3<WideF> to, Wide
       gap_before = select(shows, gap, WideF(0.0f));
     }
     found = select_place(hit, place, found);
-    met = met | hit;
+    any_hit = any_hit | hit;
     open = open & !hit;
     previous = here;
   }
-  return {found, met};
+  return {found, any_hit};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

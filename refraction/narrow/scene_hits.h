@@ -5,7 +5,7 @@
 // a crest of the same, get that body's id.
 #pragma once
 
-#include "refraction/methods/category.h"
+#include "refraction/data/category.h"
 
 namespace shoal {
 

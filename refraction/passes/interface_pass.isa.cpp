@@ -42,11 +42,7 @@ void find_interface(const InterfaceIn& in, const InterfaceOut& out, std::size_t 
     }
     store_interface(at, to);
     if (!in.view.capture) return;
-    store_plane(out.target.t, block.offset, at.t, here);
-    store_plane(out.target.normal_world, block.offset, at.normal, here);
-    store_plane(out.target.slope_variance, block.offset, at.slope_variance, here);
-    store_plane(out.target.refracted, block.offset, at.refracted, here);
-    store_plane(out.target.reflected, block.offset, at.reflected, here);
+    store_interface_target(out.target, block.offset, at, here);
     store_water(out.gbuffer, out.hits, block.offset, at.crossing_world, at.normal,
                 roughness_of_waves(at.slope_variance), here);
   });

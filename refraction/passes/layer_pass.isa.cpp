@@ -7,11 +7,11 @@
 namespace shoal::inline SHOAL_ISA_NS {
 
 void refracted_front_end(const LayerPassIn& in, const BinsOut& out, std::size_t work_item) {
-  run_work_item(in.geometry, RefractedProgram{{in.pass, in.view.view}}, in.pass.pass, out.bins, work_item);
+  run_work_item(in.geometry, RefractedProgram(in.pass, in.view.view), in.pass.pass, out.bins, work_item);
 }
 
 void reflected_front_end(const LayerPassIn& in, const BinsOut& out, std::size_t work_item) {
-  run_work_item(in.geometry, ReflectedProgram{{in.pass, in.view.view}}, in.pass.pass, out.bins, work_item);
+  run_work_item(in.geometry, ReflectedProgram(in.pass, in.view.view), in.pass.pass, out.bins, work_item);
 }
 
 void blended_front_end(const BlendedPassIn& in, const BinsOut& out, std::size_t work_item) {
@@ -22,9 +22,9 @@ void blended_front_end(const BlendedPassIn& in, const BinsOut& out, std::size_t 
   if (in.pass == nullptr)
     run(DirectProgram{in.view.view, in.view.frustum});
   else if (in.pass->kind == WaterPassKind::kReflected)
-    run(ReflectedProgram{{*in.pass, in.view.view}});
+    run(ReflectedProgram(*in.pass, in.view.view));
   else
-    run(RefractedProgram{{*in.pass, in.view.view}});
+    run(RefractedProgram(*in.pass, in.view.view));
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

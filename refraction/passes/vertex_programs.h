@@ -3,22 +3,12 @@
 
 #include "raster/cull.h"
 #include "raster/front_end.h"
-#include "refraction/broad/broad_phase.h"
 #include "raster/pass_bins.h"
+#include "raster/plane_clip.h"
+#include "refraction/broad/broad_phase.h"
 #include "refraction/data/water_pass.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
-
-// Smallest and greatest signed distance of a box from a plane.
-struct BoxRange {
-  float lo, hi;
-};
-SHOAL_INLINE BoxRange box_range(const Plane& plane, Vec3f lo, Vec3f hi) {
-  const Vec3f n = plane.normal_world;
-  const Vec3f near_corner{n.x > 0 ? lo.x : hi.x, n.y > 0 ? lo.y : hi.y, n.z > 0 ? lo.z : hi.z};
-  const Vec3f far_corner{n.x > 0 ? hi.x : lo.x, n.y > 0 ? hi.y : lo.y, n.z > 0 ? hi.z : lo.z};
-  return {plane_distance(plane, near_corner), plane_distance(plane, far_corner)};
-}
 
 // Straight through: the direct pass.
 struct DirectProgram {
@@ -35,30 +25,19 @@ struct DirectProgram {
   }
 };
 
-// The world plane that both passes of a body clip geometry at. Decided per point by the same expression
-// as the clipper's, so a triangle that counts as inside is never cut.
-struct ClippedByWater {
-  static constexpr bool kWarped = true;
+// What the passes of a body of water share: they clip geometry at a plane in the world.
+struct LayerProgram : PlaneClip {
   const WaterPass& water;
   const View& view;
 
-  SHOAL_INLINE Plane clip_plane() const { return water.clip_plane; }
-  SHOAL_INLINE WideM inside(Vec3<WideF> p) const {
-    return dot(broadcast<WideF>(water.clip_plane.normal_world), p) + WideF(water.clip_plane.offset_m) >= WideF(0.0f);
-  }
-  SHOAL_INLINE bool meshlet_inside(const Meshlet& meshlet) const {
-    const BoxRange range = box_range(water.clip_plane, meshlet.bounds_min_world, meshlet.bounds_max_world);
-    return range.lo > 1e-5f * (abs(range.hi) + abs(water.clip_plane.offset_m));
-  }
-  SHOAL_INLINE bool all_clipped(Vec3f lo, Vec3f hi) const {
-    const BoxRange range = box_range(water.clip_plane, lo, hi);
-    return range.hi < -1e-5f * (abs(range.lo) + abs(water.clip_plane.offset_m));
-  }
+  LayerProgram(const WaterPass& of_water, const View& of_view)
+      : PlaneClip{of_water.clip_plane}, water(of_water), view(of_view) {}
 };
 
 // The broad phase as a vertex program: every vertex at its virtual position, edges split until they are straight to
 // kEdgeThresholdPx.
-struct RefractedProgram : ClippedByWater {
+struct RefractedProgram : LayerProgram {
+  using LayerProgram::LayerProgram;
   // Out of line, because the solver is long and the front end has several callers.
   __attribute__((noinline)) ClipVertex<WideF> vertex(Vec3<WideF> position_world) const {
     return project(view, virtual_position(water.optics->map, position_world));
@@ -85,11 +64,15 @@ struct RefractedProgram : ClippedByWater {
 //
 //   Map  template <class F> Vec3<F> position(Vec3<F> world) const;     where a world position is drawn
 //        void bounds(Vec3f lo, Vec3f hi, Vec3f& out_lo, Vec3f& out_hi) const;   of a world box's images
-// Edges are split where the exact map (WaterPass::optics) would have them split, or nowhere.
+// Edges are split where the exact map (WaterOptics::exact) needs it, or nowhere.
 template <class Map>
-struct MappedProgram : ClippedByWater {
+struct MappedProgram : LayerProgram {
   const Map& map;
   bool splits;
+
+  //   splits_edges  false: bent edges stay straight
+  MappedProgram(const WaterPass& of_water, const View& of_view, const Map& of_map, bool splits_edges)
+      : LayerProgram(of_water, of_view), map(of_map), splits(splits_edges) {}
 
   __attribute__((noinline)) ClipVertex<WideF> vertex(Vec3<WideF> position_world) const {
     return project(view, map.position(position_world));
@@ -114,7 +97,8 @@ struct MappedProgram : ClippedByWater {
 };
 
 // The planar reflection pass: the scene mirrored in the plane.
-struct ReflectedProgram : ClippedByWater {
+struct ReflectedProgram : LayerProgram {
+  using LayerProgram::LayerProgram;
   template <class F>
   SHOAL_INLINE ClipVertex<F> vertex(Vec3<F> position_world) const {
     return project(view, mirrored_position(water.optics->exact, position_world));
