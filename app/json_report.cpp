@@ -32,9 +32,10 @@ Json option_value(const std::string& text) {
 void add_method_options(const FrameSettings& frame, Json& settings) {
   for (const MethodInfo& method : method_infos()) {
     if (frame.method != method.name) continue;
-    for (const auto& [key, value] : method.options) {
-      const auto given = frame.method_options.find(key);
-      settings[frame.method + "." + key] = option_value(given == frame.method_options.end() ? value : given->second);
+    for (const MethodOptionInfo& option : method.options) {
+      const auto given = frame.method_options.find(option.key);
+      settings[frame.method + "." + option.key] =
+          option_value(given == frame.method_options.end() ? option.default_value : given->second);
     }
   }
 }

@@ -104,7 +104,7 @@ bool set_water_key(WaterOverrides& water, const std::string& key, const std::str
   std::string known = "a water key (" + join(keys_of_water) + ")";
   if (method) {
     Names keys;
-    for (const auto& option : method->options) keys.push_back(option.first);
+    for (const auto& option : method->options) keys.push_back(option.key);
     known += fmt::format(" or an option of {} ({})", method->name, keys.empty() ? "it has none" : join(keys));
   }
   throw UsageError(fmt::format("--set '{}': unknown key; expected {}", key, known));

@@ -90,8 +90,9 @@ const std::vector<Row>& rows() {
       vector(Aov::kHitPosition, "hit.position",
              [](const AovIn& in, const Pixel& p) { return at(in.targets.hits.position_world, p.slot); }),
       count(Aov::kHitId, "hit.id", [](const AovIn& in, const Pixel& p) { return id_out(in.targets.hits.id[p.slot]); }),
-      count(Aov::kHitOutside, "hit.outside",
-            [](const AovIn& in, const Pixel& p) { return static_cast<std::uint32_t>(in.targets.hits.outside[p.slot]); }),
+      count(
+          Aov::kHitOutside, "hit.outside",
+          [](const AovIn& in, const Pixel& p) { return static_cast<std::uint32_t>(in.targets.hits.outside[p.slot]); }),
   };
   return all;
 }

@@ -1,7 +1,7 @@
 // One frame, start to end: the page to read first.
 //
-// Every stage is a call with its inputs and outputs, on all threads, one after the other. The files of refraction/passes/
-// and refraction/narrow/ hold the stages; docs/FRAME.md follows one water pixel through this page.
+// Every stage is a call with its inputs and outputs, on all threads, one after the other. The files of
+// refraction/passes/ and refraction/narrow/ hold the stages; docs/FRAME.md follows one water pixel through this page.
 #include "refraction/frame.h"
 
 #include "refraction/water_body.h"
@@ -26,8 +26,9 @@ void draw_sample(const FrameIn& in, const ViewState& view, const FrameOut& out, 
   {  // 2 Direct: vertex -> clip -> setup -> bin -> visibility; the water's surface is one of its primitives.
     Stage stage(run, "direct.front_end");
     kernels.outline_front_end({in.outlines, work.water, view}, {work.outline_bins});
-    stage.for_each(work.bins.work_items.size(),
-                   [&](std::size_t item) { kernels.direct_front_end({scene.geometry(), view}, {work.bins}, item); });
+    stage.for_each(work.bins.work_items.size(), [&](std::size_t item) {
+      kernels.direct_front_end({scene.geometry(), view}, {work.bins}, item);
+    });
   }
   {
     Stage stage(run, "direct.visibility");

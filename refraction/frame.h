@@ -2,11 +2,11 @@
 #pragma once
 
 #include "refraction/data/method_state.h"
+#include "refraction/data/stage.h"
 #include "refraction/data/targets.h"
 #include "refraction/data/view_state.h"
 #include "refraction/methods/kernels.h"
 #include "refraction/passes/water_region.h"
-#include "refraction/data/stage.h"
 #include "scene/scene_view.h"
 #include "trace/ray_counts.h"
 #include "trace/trace_view.h"
@@ -17,8 +17,8 @@ namespace shoal {
 struct FrameIn {
   const SceneView& scene;
   const TraceView& trace;
-  const OutlineView& outlines;                           // of the bodies of water
-  const std::vector<std::uint32_t>& blended_meshlets;    // of the scene, in submission order
+  const OutlineView& outlines;                         // of the bodies of water
+  const std::vector<std::uint32_t>& blended_meshlets;  // of the scene, in submission order
   const FrameGrids& grids;
   const FrameKernels& kernels;
   const MethodKernels& method;
@@ -31,7 +31,7 @@ struct FrameIn {
 struct FrameWork {
   PassBins bins, outline_bins;
   PassBins blended_bins, blended_reflected_bins;
-  BinGrid blended_regions;  // of the frame
+  BinGrid blended_regions;               // of the frame
   std::vector<FragmentLists> fragments;  // [threads]
   AlignedArray<RegionScratch> scratch;   // [threads]
   std::vector<WaterOptics> water;

@@ -193,9 +193,9 @@ struct Renderer::Impl {
       std::vector<SunBend> bends;
       for (const WaterBody& body : scene.waters)
         bends.push_back(bend_of(body, scene.lighting.directional[0].direction_world));
-      build_shadows({view.shading, scene.geometry.meshlets, materials.size(), bends, outlines.vertices,
-                     settings.shadow_map_px},
-                    shadows, pool, kernels.shadow);
+      build_shadows(
+          {view.shading, scene.geometry.meshlets, materials.size(), bends, outlines.vertices, settings.shadow_map_px},
+          shadows, pool, kernels.shadow);
     }
     light_media.clear();
     for (std::size_t b = 0; b < scene.waters.size(); ++b)
@@ -251,17 +251,17 @@ struct Renderer::Impl {
       clear_captured(targets);
       clock.skip();
     }
-    const FrameIn in{view,
-                     trace,
-                     outline_view,
-                     blended,
-                     grids,
-                     kernels,
-                     method.kernels,
-                     state,
-                     settings.reflections == Reflections::kScene,
-                     {settings.exposure_stops,
-                      settings.tone_map == ToneMap::kAces ? ToneCurve::kAces : ToneCurve::kNone}};
+    const FrameIn in{
+        view,
+        trace,
+        outline_view,
+        blended,
+        grids,
+        kernels,
+        method.kernels,
+        state,
+        settings.reflections == Reflections::kScene,
+        {settings.exposure_stops, settings.tone_map == ToneMap::kAces ? ToneCurve::kAces : ToneCurve::kNone}};
     draw_sample(in, view_state, {targets, work, counts, view_state.eye_in_water}, {pool, clock, digests});
   }
 
@@ -299,7 +299,8 @@ struct Renderer::Impl {
     counts = FrameCounts();
     place_surfaces(time_s);
     clock.lap("water");
-    targets.srgb8.resize(static_cast<std::size_t>(settings.width_px) * static_cast<std::size_t>(settings.height_px) * 3);
+    targets.srgb8.resize(static_cast<std::size_t>(settings.width_px) * static_cast<std::size_t>(settings.height_px) *
+                         3);
     if (wanted != nullptr) digests.add_shadows(shadows), clock.skip();
     ViewState& v = view_state;
     v.sample_count = settings.spp;
@@ -344,8 +345,7 @@ struct Renderer::Impl {
     if (state.data != nullptr) out.method_figures = state.data->figures();
     out.rays.clear();
     if (rays != nullptr)
-      for (int kind = 0; kind < RayCounts::kKinds; ++kind)
-        out.rays.emplace_back(kRayNames[kind], counts.rays.of[kind]);
+      for (int kind = 0; kind < RayCounts::kKinds; ++kind) out.rays.emplace_back(kRayNames[kind], counts.rays.of[kind]);
   }
 
   AovIn aov_in() const { return {scene, view_state.view, grids.frame, targets, work.water}; }

@@ -9,7 +9,7 @@ namespace {
 
 // The stages that run region by region. Their time is taken on each thread and shared out by its proportions.
 enum RegionStage { kInterface, kNarrow, kReflected, kBlended, kSecondary, kLight, kRegionStages };
-constexpr const char* kRegionStageNames[kRegionStages] = {"interface", "narrow",        "narrow.reflected",
+constexpr const char* kRegionStageNames[kRegionStages] = {"interface",     "narrow",    "narrow.reflected",
                                                           "blended.water", "secondary", "shade.water"};
 
 class RegionTimes {
@@ -64,8 +64,7 @@ void draw_layer(const FrameIn& in, const ViewState& view, const WaterPass& pass,
   }
   {
     Stage stage(run, draw.visibility_stage);
-    const AlphaTestIn alpha{in.scene.shading, view.view,      in.grids.frame,
-                            pass.optics,      in.method.rays, in.state.options};
+    const AlphaTestIn alpha{in.scene.shading, view.view, in.grids.frame, pass.optics, in.method.rays, in.state.options};
     const TilePassIn tiles{nullptr,         work.bins, in.grids.layers.tiles, in.grids.layers.margin_px,
                            draw.alpha_test, alpha};
     stage.for_each(in.grids.layer_tile_count(), [&](std::size_t tile) {
@@ -78,7 +77,7 @@ void draw_layer(const FrameIn& in, const ViewState& view, const WaterPass& pass,
 // The blended meshlets of a body's pass into bins.
 void bin_blended(const FrameIn& in, const ViewState& view, const WaterPass& pass, const WaterRegions& regions,
                  PassBins& bins, FrameCounts& counts, Stage& stage) {
-  const BlendedPassIn blended{in.scene.geometry(),     view,  &pass, in.blended_meshlets, in.grids.layers.regions,
+  const BlendedPassIn blended{in.scene.geometry(),  view,    &pass, in.blended_meshlets, in.grids.layers.regions,
                               regions.layer.data(), in.state};
   const bool own_map = in.method.blended_front_end != nullptr && pass.kind == WaterPassKind::kRefracted;
   const auto front_end = own_map ? in.method.blended_front_end : in.kernels.blended_front_end;
@@ -151,9 +150,9 @@ struct RegionPass {
     if (!drawn)
       in.kernels.layer_from_hits({view, in.grids, *pass.optics, scratch.interface, scratch.hits, pass.kind}, opaque,
                                  region);
-    in.kernels.blend_water({in.scene, view, in.grids, bins, pass, scratch.interface, scratch.hits, in.method.rays,
-                            in.state.options},
-                           {opaque, layer, out.work.fragments[thread]}, region);
+    in.kernels.blend_water(
+        {in.scene, view, in.grids, bins, pass, scratch.interface, scratch.hits, in.method.rays, in.state.options},
+        {opaque, layer, out.work.fragments[thread]}, region);
   }
 };
 
@@ -170,8 +169,8 @@ void draw_water_body(const FrameIn& in, const ViewState& view, const WaterOptics
     stage.for_each(work.counts.size(), [&](std::size_t region) {
       work.counts[region] = kernels.count_water(t.direct, optics.water.index, region);
     });
-    const std::uint64_t pixels = find_region({in.grids, view, optics, work.counts, in.method.lights_layer},
-                                             {work.regions, refracted});
+    const std::uint64_t pixels =
+        find_region({in.grids, view, optics, work.counts, in.method.lights_layer}, {work.regions, refracted});
     out.counts.water_pixels += pixels;
     if (pixels == 0) return;
   }
@@ -210,8 +209,7 @@ void draw_water_body(const FrameIn& in, const ViewState& view, const WaterOptics
   RegionTimes times;
   const RegionPass pass{in, view, refracted, reflected, out, refracted_drawn, reflected_drawn};
   run.pool.for_each(in.grids.frame.region_count(), [&](std::size_t region, int thread) {
-    if (work.regions.of_body[region] != 0)
-      pass.run(region, static_cast<std::size_t>(thread), RegionTimes::Lap(times));
+    if (work.regions.of_body[region] != 0) pass.run(region, static_cast<std::size_t>(thread), RegionTimes::Lap(times));
   });
   times.lap(run.clock);
 }
@@ -221,15 +219,13 @@ void blend_in_front(const FrameIn& in, const ViewState& view, const FrameOut& ou
   FrameWork& work = out.work;
   const BlendedPassIn blended{in.scene.geometry(),  view,    nullptr, in.blended_meshlets,
                               work.blended_regions, nullptr, in.state};
-  stage.for_each(work.blended_bins.work_items.size(), [&](std::size_t work_item) {
-    in.kernels.blended_front_end(blended, {work.blended_bins}, work_item);
-  });
+  stage.for_each(work.blended_bins.work_items.size(),
+                 [&](std::size_t work_item) { in.kernels.blended_front_end(blended, {work.blended_bins}, work_item); });
   const BlendDirectIn direct{in.scene, view, in.grids, work.blended_bins};
   stage.for_each_on_thread(in.grids.frame.region_count(), [&](std::size_t region, int thread) {
-    in.kernels.blend_direct(direct,
-                            {out.targets.direct, out.targets.blended_direct,
-                             work.fragments[static_cast<std::size_t>(thread)]},
-                            region);
+    in.kernels.blend_direct(
+        direct, {out.targets.direct, out.targets.blended_direct, work.fragments[static_cast<std::size_t>(thread)]},
+        region);
   });
 }
 
@@ -237,12 +233,12 @@ void trace_pixels(const FrameIn& in, const ViewState& view, const FrameOut& out,
   Targets& t = out.targets;
   {
     Stage stage(run, "trace");
-    const TraceIn trace{in.scene, in.trace,          view,    in.grids, out.work.water, in.state,
-                        in.reflects_scene, !in.blended_meshlets.empty(), in.post};
+    const TraceIn trace{
+        in.scene, in.trace, view, in.grids, out.work.water, in.state, in.reflects_scene, !in.blended_meshlets.empty(),
+        in.post};
     const TraceOut traced{t.direct, t.gbuffer,      t.hits,          t.interface,
                           t.lit,    t.srgb8.data(), out.counts.rays, out.counts.water_pixels};
-    stage.for_each(in.grids.frame.region_count(),
-                   [&](std::size_t region) { in.method.trace(trace, traced, region); });
+    stage.for_each(in.grids.frame.region_count(), [&](std::size_t region) { in.method.trace(trace, traced, region); });
   }
   run.digest({"visibility.direct", "depth.direct", "interface", "gbuffer", "hit"});
 }

@@ -12,11 +12,11 @@ namespace shoal {
 
 // Everything that it points to outlives the frame.
 struct SceneView {
-  ShadingView shading;                           // geometry, materials, lights, the sun's shadows
-  std::span<const PlacedWater> water;            // the bodies at this time
-  const LightMedium* light_media = nullptr;      // of the bodies: how sunlight reaches points in them
-  std::span<const Drawable> drawables;           // in order of their triangles
-  std::int32_t triangle_count = 0;               // of the whole scene
+  ShadingView shading;                       // geometry, materials, lights, the sun's shadows
+  std::span<const PlacedWater> water;        // the bodies at this time
+  const LightMedium* light_media = nullptr;  // of the bodies: how sunlight reaches points in them
+  std::span<const Drawable> drawables;       // in order of their triangles
+  std::int32_t triangle_count = 0;           // of the whole scene
 
   const GeometryView& geometry() const { return shading.geometry; }
   const Background& background() const { return shading.lighting->background; }

@@ -19,8 +19,8 @@ void extend(Box& box, const Box& by) {
   box.hi = {std::max(box.hi.x, by.hi.x), std::max(box.hi.y, by.hi.y), std::max(box.hi.z, by.hi.z)};
 }
 
-// Grown by more than the slack of the triangle test (raster/triangle_test.h) and the rounding of the box test: both are parts of
-// the coordinates' size.
+// Grown by more than the slack of the triangle test (raster/triangle_test.h) and the rounding of the box test: both are
+// parts of the coordinates' size.
 Box grown(Box box) {
   const auto grow = [](float& lo, float& hi) {
     const float by = (hi - lo) * 2e-5f + std::max(std::fabs(lo), std::fabs(hi)) * 2e-6f;
@@ -96,9 +96,8 @@ struct Split {
   int leaves = 1;
 };
 
-// Splits primitives by the surface area heuristic, down to leaves: each range where the halves' areas times their counts are
-// least, of sixteen places along each axis.
-// Source: Goldsmith and Salmon 1987; Wald 2007 (bins).
+// Splits primitives by the surface area heuristic, down to leaves: each range where the halves' areas times their
+// counts are least, of sixteen places along each axis. Source: Goldsmith and Salmon 1987; Wald 2007 (bins).
 class Builder {
  public:
   // Ranges of at most max_task_size are not split: they become `tasks`, and leaves of `splits`.
@@ -179,8 +178,9 @@ class Builder {
     }
     if (best_axis < 0) return range.count / 2;
     const auto from = primitives.begin() + static_cast<std::ptrdiff_t>(range.first);
-    const auto middle = std::partition(from, from + static_cast<std::ptrdiff_t>(range.count),
-                                       [&](const Primitive& primitive) { return bins_of(primitive)[best_axis] < best_bin; });
+    const auto middle =
+        std::partition(from, from + static_cast<std::ptrdiff_t>(range.count),
+                       [&](const Primitive& primitive) { return bins_of(primitive)[best_axis] < best_bin; });
     return static_cast<std::size_t>(middle - from);
   }
 
@@ -225,7 +225,8 @@ std::vector<Primitive> opaque_primitives(const Geometry& geometry, const Materia
   for_ranges(pool, primitives.size(), [&](std::size_t i) {
     const Box box = box_of(geometry, triangles[i]);
     const Vec3f lo = box.lo, hi = box.hi;
-    primitives[i] = Primitive{Float4{lo.x, lo.y, lo.z, 0.0f}, Float4{hi.x, hi.y, hi.z, std::bit_cast<float>(triangles[i])}};
+    primitives[i] =
+        Primitive{Float4{lo.x, lo.y, lo.z, 0.0f}, Float4{hi.x, hi.y, hi.z, std::bit_cast<float>(triangles[i])}};
   });
   return primitives;
 }

@@ -1,4 +1,5 @@
-// A bounding volume hierarchy over the scene's opaque triangles, sixteen children wide; trace/nearest_hit.h traverses it.
+// A bounding volume hierarchy over the scene's opaque triangles, sixteen children wide; trace/nearest_hit.h traverses
+// it.
 //
 // Nodes have sixteen children, leaves sixteen triangles near each other: all boxes of either are tested at once. The
 // boxes decide only which triangles are tested; the hit that is found does not depend on them.

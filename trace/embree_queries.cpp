@@ -1,8 +1,8 @@
 // Ray queries by Embree 3: robust traversal, packets of sixteen.
 //
 // Triangles come in four kinds, one Embree geometry each, over the scene's own vertices: the
-// geometry then decides which tests a filter makes, and most triangles need none. Primitive numbers keep the scene's order within a kind.
-// Blended triangles, which rays go through, are an Embree scene of their own.
+// geometry then decides which tests a filter makes, and most triangles need none. Primitive numbers keep the scene's
+// order within a kind. Blended triangles, which rays go through, are an Embree scene of their own.
 #include <embree3/rtcore.h>
 
 #include <cstddef>
@@ -125,7 +125,8 @@ class EmbreeQueries final : public RayQueries {
       attach(scene.geometry, kind, scene_, static_cast<unsigned>(&kind - kinds_.data()));
       if (kind.kind.one_sided || kind.kind.alpha_tested)
         rtcSetGeometryIntersectFilterFunction(kind.geometry, &filter_first_hit);
-      if (!kind.kind.casts || kind.kind.alpha_tested) rtcSetGeometryOccludedFilterFunction(kind.geometry, &filter_blocked);
+      if (!kind.kind.casts || kind.kind.alpha_tested)
+        rtcSetGeometryOccludedFilterFunction(kind.geometry, &filter_blocked);
       rtcCommitGeometry(kind.geometry);
     }
     rtcCommitScene(scene_);

@@ -170,13 +170,11 @@ class Search {
     find_reach(frustum);
   }
   // Each triangle against all rays.
-  void test_by_triangles(const Bvh16::Leaf& leaf, const Bvh16::Corners& corners,
-                         Bvh16::Kinds kinds, std::uint32_t triangles) {
+  void test_by_triangles(const Bvh16::Leaf& leaf, const Bvh16::Corners& corners, Bvh16::Kinds kinds,
+                         std::uint32_t triangles) {
     for (std::uint32_t left = triangles; left != 0; left &= left - 1) {
       const int k = __builtin_ctz(left);
-      const auto vector = [k](const float(*v)[Bvh16::kWidth]) SHOAL_LAMBDA {
-        return Vec3f{v[0][k], v[1][k], v[2][k]};
-      };
+      const auto vector = [k](const float(*v)[Bvh16::kWidth]) SHOAL_LAMBDA { return Vec3f{v[0][k], v[1][k], v[2][k]}; };
       const Vec3f e1 = vector(corners.e1), e2 = vector(corners.e2);
       const TriangleTest test =
           test_triangle(ray, broadcast<WideF>(vector(corners.p0)), broadcast<WideF>(e1), broadcast<WideF>(e2), lanes);
@@ -193,8 +191,8 @@ class Search {
     }
   }
   // Each ray against all triangles.
-  void test_by_rays(const Bvh16::Leaf& leaf, const Bvh16::Corners& corners, Bvh16::Kinds kinds,
-                    std::uint32_t triangles, std::uint32_t passing) {
+  void test_by_rays(const Bvh16::Leaf& leaf, const Bvh16::Corners& corners, Bvh16::Kinds kinds, std::uint32_t triangles,
+                    std::uint32_t passing) {
     const auto vector = [](const float(*v)[Bvh16::kWidth]) SHOAL_LAMBDA {
       return Vec3<WideF>{WideF::load(v[0]), WideF::load(v[1]), WideF::load(v[2])};
     };
@@ -216,7 +214,8 @@ class Search {
       for (; left != 0; left &= left - 1) {
         const int k = __builtin_ctz(left);
         if (at[k] > t_of[lane] || (at[k] == t_of[lane] && leaf.id[k] > id_of[lane])) continue;
-        if ((kinds.alpha_tested >> k & 1u) != 0 && alpha_bits(view, ray, differential, leaf.id[k], 1u << lane) == 0) continue;
+        if ((kinds.alpha_tested >> k & 1u) != 0 && alpha_bits(view, ray, differential, leaf.id[k], 1u << lane) == 0)
+          continue;
         t_of[lane] = at[k], id_of[lane] = leaf.id[k];
       }
     }
@@ -264,8 +263,7 @@ NearestHit nearest_hits(const Bvh16& bvh, const ShadingView& view, const Ray<Wid
   Search search(bvh, view, ray, differential, known);
   while (any(lanes)) {
     const Heading heading = find_heading(ray, lanes);
-    const WideM together =
-        lanes & (along(ray.direction_world, heading.axis) * WideF(heading.sense) > WideF(kMinAlong));
+    const WideM together = lanes & (along(ray.direction_world, heading.axis) * WideF(heading.sense) > WideF(kMinAlong));
     if (none(together)) break;
     search.run(heading, together);
     lanes = lanes & !together;

@@ -68,8 +68,8 @@ class PathTracer {
       const PlacedWater& placed = scene_.water[static_cast<std::size_t>(one)];
       Vec3<WideF> normal = broadcast<WideF>(placed.body->normal);
       if (is_displaced(*placed.body, placed.surface))
-        normal = displaced_normal(*placed.body, *placed.surface,
-                                  path.ray.origin_world + path.ray.direction_world * water.t);
+        normal =
+            displaced_normal(*placed.body, *placed.surface, path.ray.origin_world + path.ray.direction_world * water.t);
       const WideM below = dot(path.ray.direction_world, normal) > WideF(0.0f);
       if (any(lanes & !below)) interface(path, placed, water.t, false, lanes & !below);
       if (any(lanes & below)) interface(path, placed, water.t, true, lanes & below);
@@ -101,7 +101,8 @@ class PathTracer {
     shade_hits(scene_.shading, path.ray, path.differential, id, hit,
                medium != nullptr ? &scene_.light_media[path.medium] : nullptr, s);
     Vec3<WideF> weight = path.weight;
-    if (medium != nullptr) weight = weight * absorbed(*medium, max(s.t * length(path.ray.direction_world), WideF(0.0f)));
+    if (medium != nullptr)
+      weight = weight * absorbed(*medium, max(s.t * length(path.ray.direction_world), WideF(0.0f)));
     add(weight * path.clear, s.radiance, hit);
     if (path.level == 1) {
       out_.covered = select(hit, WideF(1.0f), out_.covered);
@@ -117,16 +118,14 @@ class PathTracer {
     if (const WaterBody* medium = medium_of(path)) {
       // The ray leaves the scene through the water's bottom, as in the raster methods (passes/shade_water.isa.cpp).
       const WideF descent = abs(dot(direction, broadcast<WideF>(medium->normal)));
-      const WideF path_m =
-          path.level == 1 ? WideF(kFarAway_m) : WideF(medium->depth_m) / max(descent, WideF(1e-3f));
+      const WideF path_m = path.level == 1 ? WideF(kFarAway_m) : WideF(medium->depth_m) / max(descent, WideF(1e-3f));
       weight = weight * absorbed(*medium, path_m);
     }
     add(weight * path.clear, beyond(path, direction), gone);
   }
 
   Vec3<WideF> beyond(const Path& path, Vec3<WideF> direction) const {
-    return path.seen_beyond != nullptr ? *path.seen_beyond
-                                       : background_radiance<WideF>(scene_.background(), direction);
+    return path.seen_beyond != nullptr ? *path.seen_beyond : background_radiance<WideF>(scene_.background(), direction);
   }
 
   // One side of one body's surface.

@@ -14,7 +14,8 @@ struct RayPacket;
 
 // Alpha test: the lanes that the materials of alpha-tested triangles keep where the rays hit them.
 //   id  a triangle a lane; lanes: bit i, lane i
-using AlphaTestHits = std::uint32_t (*)(const void* context, const RayPacket&, const std::int32_t* id, std::uint32_t lanes);
+using AlphaTestHits = std::uint32_t (*)(const void* context, const RayPacket&, const std::int32_t* id,
+                                        std::uint32_t lanes);
 
 // Receives the blended triangles that rays hit, in no order, some perhaps twice.
 using VisitHits = void (*)(void* context, const RayPacket&, const std::int32_t* id, std::uint32_t lanes);

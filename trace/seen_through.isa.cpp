@@ -74,8 +74,7 @@ struct BlendedLists {
   Vec3f facet_of(std::int32_t one) const {
     const Geometry::TriangleRecord& r = geometry.triangles[one];
     const Vec3f a = geometry.vertices[r.vertex[0]].position_world;
-    return cross(geometry.vertices[r.vertex[1]].position_world - a,
-                 geometry.vertices[r.vertex[2]].position_world - a);
+    return cross(geometry.vertices[r.vertex[1]].position_world - a, geometry.vertices[r.vertex[2]].position_world - a);
   }
 };
 
@@ -106,8 +105,7 @@ SeenThrough seen_through(const RayQueries& rays, const SceneView& scene, const R
       ShadedLanes s;
       shade_hits(scene.shading, ray, differential, lists.id[n], here, medium, s);
       Vec3<WideF> light = s.radiance;
-      if (water != nullptr)
-        light = light * absorbed(*water->body, max(s.t * length(ray.direction_world), WideF(0.0f)));
+      if (water != nullptr) light = light * absorbed(*water->body, max(s.t * length(ray.direction_world), WideF(0.0f)));
       const WideF alpha = clamp(s.surface.alpha, WideF(0.0f), WideF(1.0f));
       sum.light = select<WideF>(here, sum.light + light * (sum.transmittance * alpha), sum.light);
       sum.transmittance = select(here, sum.transmittance * (WideF(1.0f) - alpha), sum.transmittance);

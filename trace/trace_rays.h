@@ -44,10 +44,10 @@ struct SeenThrough {
 
 // Where rays end, and the water that they run through.
 struct PathSegment {
-  float t_near;               // in lengths of the direction
-  WideF end_t;                // the same
-  WideI end_id;               // what is there: of a blended triangle as far as it, the smaller id is in front
-  std::int32_t body = -1;     // that absorbs the light on its way; -1: none
+  float t_near;            // in lengths of the direction
+  WideF end_t;             // the same
+  WideI end_id;            // what is there: of a blended triangle as far as it, the smaller id is in front
+  std::int32_t body = -1;  // that absorbs the light on its way; -1: none
 };
 
 // Composites all blended triangles between t_near (and the origin) and the end, by (distance, id).

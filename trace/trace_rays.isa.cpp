@@ -1,6 +1,7 @@
 // Ray queries of sixteen lanes (trace/trace_rays.h).
 #include "trace/trace_rays.h"
 
+#include "raster/resolve.h"
 #include "shading/shade_hits.h"
 #include "water/nearest_water.h"
 

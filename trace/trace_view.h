@@ -9,8 +9,8 @@ namespace shoal {
 
 // Both structures outlive the frame and are not written by it.
 struct TraceView {
-  const Bvh16* bvh = nullptr;         // over the opaque triangles, in scenes with water
-  const RayQueries* rays = nullptr;   // of the reference and of traced shadows, else null
+  const Bvh16* bvh = nullptr;        // over the opaque triangles, in scenes with water
+  const RayQueries* rays = nullptr;  // of the reference and of traced shadows, else null
 };
 
 }  // namespace shoal

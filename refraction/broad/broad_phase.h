@@ -315,15 +315,15 @@ SHOAL_INLINE float dense_hessian_bound(const BroadPhase& bp, const BoxDistances&
   return max(std::sqrt(dd * dd + 2.0f * bd * bd + bb * bb), m / (a + q * b_lo));
 }
 
-// What edge_deviation_px cannot exceed for any edge up to a length in a world box: a meshlet that passes needs no look at
-// its edges.
+// What edge_deviation_px cannot exceed for any edge up to a length in a world box: a meshlet that passes needs no look
+// at its edges.
 //
 //   longest_edge_m  >= 0
 // Returns pixels: |Hessian| f L^2 / (8 w), with w the least view depth of the box's virtual bounds, or the share of
 // kEdgeReach if larger; 0 where the map is linear in the box; infinity where no bound is known: in boxes through the
 // plane, and from the dense side in boxes that touch it outside of the window.
-SHOAL_INLINE float meshlet_deviation_bound_px(const BroadPhase& bp, const View& view, Vec3f bounds_min, Vec3f bounds_max,
-                                            float longest_edge_m) {
+SHOAL_INLINE float meshlet_deviation_bound_px(const BroadPhase& bp, const View& view, Vec3f bounds_min,
+                                              Vec3f bounds_max, float longest_edge_m) {
   constexpr float kUnknown = std::numeric_limits<float>::infinity();
   if (bp.path.identity || !bp.far_side_visible) return 0.0f;
   const BoxDistances box = box_distances(bp, bounds_min, bounds_max);

@@ -25,7 +25,8 @@ class PathLengthMap {
 
   // Where a world position appears: on its image's view ray, at the length of its path.
   //   world  finite
-  // Error: 3e-6 of the size of the coordinates (point, eye and exact image together) (tests/refraction/test_published_maps.cpp).
+  // Error: 3e-6 of the size of the coordinates (point, eye and exact image together)
+  // (tests/refraction/test_published_maps.cpp).
   //
   // By Snell's law the way beyond the plane, b / cos w, is n times that to the exact image straight behind the same
   // crossing: v / cos a = b tan w / (tan a cos a) = (b / cos w) / n. So the point at the path's length is the crossing

@@ -26,7 +26,7 @@ struct RasterNarrowIn {
   const LayerView& layer;           // the refracted layer, where the method has it drawn
   const LitLayer& lit;              // the same, lit: of an image-space method, else empty
   const MethodState& state;
-  bool wants_positions;             // hits are to be written with their positions (HitBlock)
+  bool wants_positions;  // hits are to be written with their positions (HitBlock)
 };
 // And the triangles that a voxel grid refers to.
 struct VolumeNarrowIn : RasterNarrowIn {

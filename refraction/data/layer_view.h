@@ -14,8 +14,8 @@ class LayerView {
       : grid_(grid), id_(layer.id.data()), depth_(layer.depth.data()), geometry_(geometry) {}
 
   const LayerGrid& grid() const { return grid_; }
-  const std::int32_t* id() const { return id_; }   // [slots of grid().grid]
-  const float* depth() const { return depth_; }    // the same; greater is nearer, 0 where nothing is drawn
+  const std::int32_t* id() const { return id_; }  // [slots of grid().grid]
+  const float* depth() const { return depth_; }   // the same; greater is nearer, 0 where nothing is drawn
 
   // The distance along each ray at which it intersects the plane of a triangle that the layer shows.
   //   id     a lane's triangle, read from id()

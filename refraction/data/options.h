@@ -51,7 +51,8 @@ constexpr MethodOption method_option(const char* key, float min, float max, cons
   constexpr MethodOption::Kind kind = std::is_same_v<Field, bool>  ? MethodOption::Kind::kBool
                                       : std::is_same_v<Field, int> ? MethodOption::Kind::kInt
                                                                    : MethodOption::Kind::kFloat;
-  return {key, meaning, kind, min, max, static_cast<float>(typename M::OptionsType{}.*field), &option_detail::set<field>};
+  return {
+      key, meaning, kind, min, max, static_cast<float>(typename M::OptionsType{}.*field), &option_detail::set<field>};
 }
 template <auto field>
 constexpr MethodOption method_option(const char* key, const char* meaning) {

@@ -1,11 +1,13 @@
-// The rays that continue from the water pixels of a block, in plain memory, so that a method's function can hand them to
-// stages that are compiled once for all methods.
+// The rays that continue from the water pixels of a block, in plain memory, so that a method's function can hand them
+// to stages that are compiled once for all methods.
 #pragma once
 
 #include "core/ray.h"
+#include "raster/ray_triangle.h"
 #include "refraction/data/region_hits.h"
 #include "refraction/data/view_state.h"
 #include "refraction/data/water_pass.h"
+#include "water/nearest_water.h"
 
 namespace shoal {
 
@@ -46,7 +48,8 @@ SHOAL_INLINE void store_rays(const PixelRays<WideF>& r, RaysBlock& to) {
 
 SHOAL_INLINE PixelRays<WideF> load_rays(const RaysBlock& from) {
   const auto vector = [&](int i) SHOAL_LAMBDA {
-    return Vec3<WideF>{WideF::load(from.channel[i]), WideF::load(from.channel[i + 1]), WideF::load(from.channel[i + 2])};
+    return Vec3<WideF>{WideF::load(from.channel[i]), WideF::load(from.channel[i + 1]),
+                       WideF::load(from.channel[i + 2])};
   };
   return {{vector(0), vector(3)}, {vector(6), vector(9), vector(12), vector(15)}};
 }

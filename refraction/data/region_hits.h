@@ -11,9 +11,9 @@ namespace shoal {
 // first, a secondary water interface.
 struct alignas(64) HitBlock {
   std::int32_t refracted_id[16], reflected_id[16];
-  // The triangle that the rays hit, whatever water they cross before it, and the point hit, world: filled where the scene
-  // has blended materials and the layer of that ray is not drawn. A method whose rays go to a point that it found by
-  // itself writes refracted_position in every scene.
+  // The triangle that the rays hit, whatever water they cross before it, and the point hit, world: filled where the
+  // scene has blended materials and the layer of that ray is not drawn. A method whose rays go to a point that it found
+  // by itself writes refracted_position in every scene.
   std::int32_t refracted_triangle[16], reflected_triangle[16];
   float refracted_position[3][16], reflected_position[3][16];
 };
@@ -43,7 +43,9 @@ struct RegionScratch {
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-SHOAL_INLINE void store3(float (&to)[3][16], const Vec3<WideF>& v) { v.x.store(to[0]), v.y.store(to[1]), v.z.store(to[2]); }
+SHOAL_INLINE void store3(float (&to)[3][16], const Vec3<WideF>& v) {
+  v.x.store(to[0]), v.y.store(to[1]), v.z.store(to[2]);
+}
 SHOAL_INLINE void store3(float (&to)[3][16], const Vec3<WideF>& v, WideM lanes) {
   store_masked(to[0], v.x, lanes), store_masked(to[1], v.y, lanes), store_masked(to[2], v.z, lanes);
 }

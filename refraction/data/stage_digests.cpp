@@ -64,8 +64,7 @@ void StageDigests::add_shadows(const SunShadows& shadows) {
 
 void StageDigests::add_blended() {
   // Empty blocks transmit everything.
-  for (const BlendLayer* layer :
-       {&targets_.blended_direct, &targets_.blended_refracted, &targets_.blended_reflected}) {
+  for (const BlendLayer* layer : {&targets_.blended_direct, &targets_.blended_refracted, &targets_.blended_reflected}) {
     if (layer->filled.size() == 0) continue;
     for (const auto* plane : {&layer->red, &layer->green, &layer->blue, &layer->transmittance}) {
       AlignedArray<float> whole(plane->size());

@@ -31,19 +31,19 @@ struct GBuffer {
 
 // The water interface of each water pixel, 0 elsewhere: what the interface stage found.
 struct InterfaceTarget {
-  FloatPlane t;              // in lengths of the view ray's direction
-  PlaneXyz normal_world;     // unit
+  FloatPlane t;           // in lengths of the view ray's direction
+  PlaneXyz normal_world;  // unit
   FloatPlane slope_variance;
   PlaneXyz refracted, reflected;  // unit, world
 };
 
 // What each water pixel shows.
 struct HitPoints {
-  IntPlane kind;             // HitKind
-  IntPlane id;               // triangle, or kNoId
-  PlaneXyz position_world;   // 0 where the kind has no point
-  PlaneXyz virtual_world;    // where the point appears through flat water
-  IntPlane outside;          // 1: an image-space method sampled its layer outside of the frame
+  IntPlane kind;            // HitKind
+  IntPlane id;              // triangle, or kNoId
+  PlaneXyz position_world;  // 0 where the kind has no point
+  PlaneXyz virtual_world;   // where the point appears through flat water
+  IntPlane outside;         // 1: an image-space method sampled its layer outside of the frame
 };
 
 // The refracted layer of an image-space method, lit.
@@ -76,11 +76,11 @@ struct Targets {
 
 // When a target exists.
 struct TargetNeeds {
-  bool water = false;        // the scene has water
-  bool lit_layer = false;    // the method lights its layer
-  bool blended = false;      // the scene has blended materials
-  bool capture = false;      // digests or AOVs are wanted
-  bool linear = false;       // linear light is kept or averaged
+  bool water = false;      // the scene has water
+  bool lit_layer = false;  // the method lights its layer
+  bool blended = false;    // the scene has blended materials
+  bool capture = false;    // digests or AOVs are wanted
+  bool linear = false;     // linear light is kept or averaged
 };
 
 // How a target's planes are numbered and digested.
@@ -105,7 +105,7 @@ void visit_planes(T& t, const TargetNeeds& needs, Visit visit) {
   visit(TargetInfo{"depth.reflected", true, needs.water}, t.reflected.depth);
   const TargetInfo layer{"layer", false, needs.water && needs.lit_layer};
   xyz(layer, t.layer.radiance), xyz(layer, t.layer.position_world);
-  const TargetInfo interface{"interface", false, needs.water && needs.capture};
+  const TargetInfo interface { "interface", false, needs.water&& needs.capture };
   visit(interface, t.interface.t), xyz(interface, t.interface.normal_world);
   visit(interface, t.interface.slope_variance);
   xyz(interface, t.interface.refracted), xyz(interface, t.interface.reflected);

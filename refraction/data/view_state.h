@@ -15,9 +15,9 @@ struct ViewState {
   Frustum frustum;           // of the whole frame
   PassSettings direct_pass;  // of the direct pass
   int sample = 0, sample_count = 1;
-  bool capture = false;            // G-buffer, interface and hit points are stored whole (the sample at the pixel's centre)
-  bool accumulate = true;          // the sample enters the picture
-  bool last_sample = true;         // the picture is encoded after it
+  bool capture = false;     // G-buffer, interface and hit points are stored whole (the sample at the pixel's centre)
+  bool accumulate = true;   // the sample enters the picture
+  bool last_sample = true;  // the picture is encoded after it
   std::int32_t eye_in_water = -1;  // index of the body that the eye is in, or -1
 };
 

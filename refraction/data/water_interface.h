@@ -12,19 +12,19 @@ namespace shoal {
 // The channels of one pixel, each sixteen floats of a 4 x 4 block.
 struct alignas(64) InterfaceBlock {
   enum Channel {
-    kT,                // of the crossing along the view ray, in lengths of its direction
-    kCrossing,         // world, m; three channels, as the other vectors
-    kIncident = 4,     // unit, world: the view ray's direction
-    kPlaneNormal = 7,  // unit, on the ray's side: of the plane, or of a displaced surface's tangent plane
-    kNormal = 10,      // unit, against the ray: the surface's
-    kSlopeVariance = 13,   // of waves that the pixel's footprint hides, else 0
-    kCosIncident,          // >= 0
-    kCosTransmitted,       // >= 0; 0 where totally reflected
-    kEta,                  // n_incident / n_transmitted
-    kReflectance,          // Fresnel, the mean over hidden slopes; 1 where totally reflected
-    kRefracted,            // unit; tangential where totally reflected
-    kReflected = 21,       // unit
-    kBackground = 24,      // linear radiance of the background that filtered waves reflect; unset without filtering
+    kT,                   // of the crossing along the view ray, in lengths of its direction
+    kCrossing,            // world, m; three channels, as the other vectors
+    kIncident = 4,        // unit, world: the view ray's direction
+    kPlaneNormal = 7,     // unit, on the ray's side: of the plane, or of a displaced surface's tangent plane
+    kNormal = 10,         // unit, against the ray: the surface's
+    kSlopeVariance = 13,  // of waves that the pixel's footprint hides, else 0
+    kCosIncident,         // >= 0
+    kCosTransmitted,      // >= 0; 0 where totally reflected
+    kEta,                 // n_incident / n_transmitted
+    kReflectance,         // Fresnel, the mean over hidden slopes; 1 where totally reflected
+    kRefracted,           // unit; tangential where totally reflected
+    kReflected = 21,      // unit
+    kBackground = 24,     // linear radiance of the background that filtered waves reflect; unset without filtering
     kChannels = 27
   };
   float channel[kChannels][16];

@@ -1,6 +1,7 @@
 // Sphere tracing through a distance field.
 #pragma once
 
+#include "raster/bin.h"
 #include "raster/resolve.h"
 #include "refraction/field/distance_field.h"
 #include "refraction/field/point_triangle.h"

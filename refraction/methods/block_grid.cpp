@@ -88,13 +88,14 @@ WideI floor_ids(const Floor& floor, const FloorPoint& p, WideM lanes) {
   return WideI::load(ids);
 }
 
+struct Options {
+  int block = 8;
+};
+constexpr MethodOption kOptions[] = {
+    method_option<&Options::block>("block", 1, 32, "pixels a side of the blocks whose corners are traced"),
+};
+
 struct BlockGrid : TrueRays {
-  struct Options {
-    int block = 8;
-  };
-  static constexpr MethodOption kOptions[] = {
-      method_option<&Options::block>("block", 1, 32, "pixels a side of the blocks whose corners are traced"),
-  };
   // One analytic plane is intersected: the category's stated exception (docs/methods.md).
   static constexpr MethodCategory kCategory = MethodCategory::kRaster;
   static constexpr bool kMisses = true;  // what is not floor is not shown
@@ -151,7 +152,7 @@ struct BlockGrid : TrueRays {
 Method block_grid() {
   return ray_method<BlockGrid>("block-grid",
                                "rays at block corners, the floor's coordinates interpolated between; for level floors",
-                               "Champandard 1999");
+                               "Champandard 1999", option_list<Options>(kOptions));
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

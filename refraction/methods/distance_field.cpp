@@ -13,17 +13,18 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
+struct Options {
+  int resolution = 128;
+  float stop = 0.5f;
+  int steps = 512;
+};
+constexpr MethodOption kOptions[] = {
+    method_option<&Options::resolution>("resolution", 8, 512, "voxels along the field's longest side"),
+    method_option<&Options::stop>("stop", 0, 4, "voxels: a ray that passes the nearest triangle no farther hits it"),
+    method_option<&Options::steps>("steps", 1, 4096, "steps of a ray, at most"),
+};
+
 struct DistanceFieldMethod : TrueRays {
-  struct Options {
-    int resolution = 128;
-    float stop = 0.5f;
-    int steps = 512;
-  };
-  static constexpr MethodOption kOptions[] = {
-      method_option<&Options::resolution>("resolution", 8, 512, "voxels along the field's longest side"),
-      method_option<&Options::stop>("stop", 0, 4, "voxels: a ray that passes the nearest triangle no farther hits it"),
-      method_option<&Options::steps>("steps", 1, 4096, "steps of a ray, at most"),
-  };
   static constexpr MethodCategory kCategory = MethodCategory::kVolume;
 
   static void prepare(const PrepareIn& in, MethodState& state) {
@@ -35,9 +36,8 @@ struct DistanceFieldMethod : TrueRays {
   static void narrow(const VolumeNarrowIn& in, const NarrowOut& out, std::size_t region) {
     const Options& options = in.state.options_as<Options>();
     const DistanceFields& fields = in.state.data_as<DistanceFields>();
-    const DistanceField& field = (in.optics.exact.eye_below
-                                      ? fields.above
-                                      : fields.below)[static_cast<std::size_t>(in.optics.water.index)];
+    const DistanceField& field =
+        (in.optics.exact.eye_below ? fields.above : fields.below)[static_cast<std::size_t>(in.optics.water.index)];
     const MarchSettings settings{options.stop, options.steps};
     for_each_block(in.grids.frame, region, [&](const Block& block) SHOAL_LAMBDA {
       const std::size_t at_block = block_in_region(block.x_px, block.y_px);
@@ -59,9 +59,9 @@ struct DistanceFieldMethod : TrueRays {
 }  // namespace
 
 Method distance_field() {
-  return ray_method<DistanceFieldMethod>("distance-field",
-                                         "the true refracted ray, sphere-traced through a voxel distance field",
-                                         "Rodgman and Chen 2001, as Liu et al. 2020 [13]");
+  return ray_method<DistanceFieldMethod>(
+      "distance-field", "the true refracted ray, sphere-traced through a voxel distance field",
+      "Rodgman and Chen 2001, as Liu et al. 2020 [13]", option_list<Options>(kOptions));
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -9,15 +9,17 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
+struct Options {
+  float strength = 0.1f;
+  bool reflection = true;
+};
+constexpr MethodOption kOptions[] = {
+    method_option<&Options::strength>("strength", -10, 10,
+                                      "offset in frame heights for a normal that lies on its side"),
+    method_option<&Options::reflection>("reflection", "the reflected picture is pushed too"),
+};
+
 struct Distort : StraightRays {
-  struct Options {
-    float strength = 0.1f;
-    bool reflection = true;
-  };
-  static constexpr MethodOption kOptions[] = {
-      method_option<&Options::strength>("strength", -10, 10, "offset in frame heights for a normal that lies on its side"),
-      method_option<&Options::reflection>("reflection", "the reflected picture is pushed too"),
-  };
   static constexpr bool kWholeScene = true;
 
   static LayerPlace<WideF> pushed(const View& view, const FrameGrid& frame, int x_px, int y_px,
@@ -31,7 +33,8 @@ struct Distort : StraightRays {
   }
 
   static LayerPlace<WideF> sample_place(const SampleIn& in) {
-    return pushed(in.view(), in.narrow.grids.frame, in.block.x_px, in.block.y_px, in.at, in.options<Options>().strength);
+    return pushed(in.view(), in.narrow.grids.frame, in.block.x_px, in.block.y_px, in.at,
+                  in.options<Options>().strength);
   }
 
   // What a flat mirror shows at the pushed place: that place's own reflected ray.
@@ -62,7 +65,7 @@ struct Distort : StraightRays {
 
 Method distort() {
   return image_space_method<Distort>("distort", "the frame pushed across the screen by the waves' normal",
-                                     "Liu, Han and Fei 2020, Figs. 14 and 15");
+                                     "Liu, Han and Fei 2020, Figs. 14 and 15", option_list<Options>(kOptions));
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

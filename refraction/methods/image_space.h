@@ -9,8 +9,8 @@
 //     static LayerPlace<WideF> sample_place(const SampleIn&);  // where each water pixel samples the layer
 //     // Optional: a map that is no BroadPhase, in the form of MappedProgram's (passes/vertex_programs.h); `splits`:
 //     // bent edges are split
-//     static MyMap own_map(const WaterOptics&, const Options&);
-//     static bool splits_edges(const Options&);
+//     static MyMap own_map(const WaterOptics&, const MethodState&);
+//     static bool splits_edges(const MethodState&);
 //     // Optional: reflected rays other than those of the surface
 //     static PixelRays<WideF> reflected_rays(const PixelRaysIn&);
 //   };
@@ -33,11 +33,13 @@ concept ImageSpaceMethod = requires(const WaterBody& body, const View& view, con
   { M::sample_place(in) } -> std::same_as<LayerPlace<WideF>>;
 };
 template <class M>
-concept HasOwnMap = requires(const WaterOptics& optics, const typename M::Options& options) {
-  M::own_map(optics, options);
+concept HasOwnMap = requires(const WaterOptics& optics, const MethodState& state) {
+  M::own_map(optics, state);
 };
 template <class M>
-concept HasOwnReflectedRays = requires(const PixelRaysIn& in) { M::reflected_rays(in); };
+concept HasOwnReflectedRays = requires(const PixelRaysIn& in) {
+  M::reflected_rays(in);
+};
 
 template <ImageSpaceMethod M>
 struct ImageSpaceKernels {
@@ -63,16 +65,14 @@ struct ImageSpaceKernels {
 
   static void refracted_front_end(const LayerPassIn& in, const BinsOut& out,
                                   std::size_t work_item) requires HasOwnMap<M> {
-    const auto& options = in.state.options_as<typename M::Options>();
-    const auto map = M::own_map(*in.pass.optics, options);
-    const MappedProgram program(in.pass, in.view.view, map, M::splits_edges(options));
+    const auto map = M::own_map(*in.pass.optics, in.state);
+    const MappedProgram program(in.pass, in.view.view, map, M::splits_edges(in.state));
     run_work_item(in.geometry, program, in.pass.pass, out.bins, work_item);
   }
   static void blended_front_end(const BlendedPassIn& in, const BinsOut& out,
                                 std::size_t work_item) requires HasOwnMap<M> {
-    const auto& options = in.state.options_as<typename M::Options>();
-    const auto map = M::own_map(*in.pass->optics, options);
-    const MappedProgram program(*in.pass, in.view.view, map, M::splits_edges(options));
+    const auto map = M::own_map(*in.pass->optics, in.state);
+    const MappedProgram program(*in.pass, in.view.view, map, M::splits_edges(in.state));
     run_work_item(in.geometry, program, blended_settings(in), in.meshlets.data(), out.bins, work_item);
   }
 
@@ -94,8 +94,9 @@ struct ImageSpaceKernels {
 
 // The method's entry in the registry.
 template <ImageSpaceMethod M>
-constexpr Method image_space_method(const char* name, const char* description, const char* source) {
-  return {name, MethodCategory::kRaster, description, source, ImageSpaceKernels<M>::kernels(), options_of<M>()};
+constexpr Method image_space_method(const char* name, const char* description, const char* source,
+                                    OptionList options = {}) {
+  return {name, MethodCategory::kRaster, description, source, ImageSpaceKernels<M>::kernels(), options};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -17,27 +17,27 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
+struct Options {
+  bool as_printed = false, tessellate = true;
+};
+constexpr MethodOption kOptions[] = {
+    method_option<&Options::as_printed>("as-printed", "the algorithms to the letter, misprints included"),
+    method_option<&Options::tessellate>("tessellate", "split edges that the broad phase bends"),
+};
+
 struct Liu2020 : TrueRays {
-  struct Options {
-    bool as_printed = false, tessellate = true;
-  };
-  static constexpr MethodOption kOptions[] = {
-      method_option<&Options::as_printed>("as-printed", "the algorithms to the letter, misprints included"),
-      method_option<&Options::tessellate>("tessellate", "split edges that the broad phase bends"),
-  };
   static constexpr bool kWholeScene = false;
 
-  static PathLengthMap own_map(const WaterOptics& optics, const Options& options) {
-    return {optics.exact, options.as_printed};
+  static PathLengthMap own_map(const WaterOptics& optics, const MethodState& state) {
+    return {optics.exact, state.options_as<Options>().as_printed};
   }
-  static bool splits_edges(const Options& options) { return options.tessellate; }
+  static bool splits_edges(const MethodState& state) { return state.options_as<Options>().tessellate; }
 
   static LayerPlace<WideF> sample_place(const SampleIn& in) {
-    const Options& options = in.options<Options>();
-    if (options.as_printed) return printed_place(in);
+    if (in.options<Options>().as_printed) return printed_place(in);
     const Ray<WideF> ray{in.at.crossing_world, in.at.refracted};
     const Vec3<WideF> hit = ray.origin_world + ray.direction_world * plane_distance(in, ray);
-    return project_place(in.view(), own_map(in.optics(), options).position(hit));
+    return project_place(in.view(), own_map(in.optics(), in.narrow.state).position(hit));
   }
 
   // Algorithm 2 to the letter: the view ray, turned as the waves turn the normal (two mirrors in a row), intersects the
@@ -53,7 +53,7 @@ struct Liu2020 : TrueRays {
 
 Method liu_2020() {
   return image_space_method<Liu2020>("liu-2020", "path-length-preserving broad phase, plane narrow phase, image space",
-                                     "Liu, Han and Fei 2020");
+                                     "Liu, Han and Fei 2020", option_list<Options>(kOptions));
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -71,15 +71,19 @@ concept RayMethod = requires(const WaterBody& body, const View& view, const Exac
   { M::template rays<WideF>(at, crossing) } -> std::same_as<PixelRays<WideF>>;
 };
 template <class M>
-concept FindsHits = requires { &M::narrow; };
+concept FindsHits = requires {
+  &M::narrow;
+};
 template <class M>
-concept Prepares = requires { &M::prepare; };
+concept Prepares = requires {
+  &M::prepare;
+};
 template <class M>
-concept HasShownRays = requires(const PixelRaysIn& in) { M::shown_rays(in); };
+concept HasShownRays = requires(const PixelRaysIn& in) {
+  M::shown_rays(in);
+};
 template <class M>
 concept Misses = M::kMisses;
-template <class M>
-concept HasOptions = requires { M::kOptions; };
 
 // The rays of a method in the form that stages call.
 template <class M>
@@ -129,17 +133,11 @@ struct RayMethodKernels {
   }
 };
 
-// The method's entry in the registry.
-template <class M>
-constexpr OptionList options_of() {
-  if constexpr (HasOptions<M>)
-    return option_list<typename M::Options>(M::kOptions);
-  else
-    return {};
-}
+// The method's entry in the registry. Its options, if it has any, are a plain struct and a table of its fields
+// (refraction/data/options.h).
 template <RayMethod M>
-constexpr Method ray_method(const char* name, const char* description, const char* source) {
-  return {name, M::kCategory, description, source, RayMethodKernels<M>::kernels(), options_of<M>()};
+constexpr Method ray_method(const char* name, const char* description, const char* source, OptionList options = {}) {
+  return {name, M::kCategory, description, source, RayMethodKernels<M>::kernels(), options};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -1,5 +1,6 @@
-// ray-traced: the reference. Every pixel's ray is traced through the water, by reflection, refraction and total internal
-// reflection, and lit as the rasterizer lights it: the same triangles, attributes, textures and shading function.
+// ray-traced: the reference. Every pixel's ray is traced through the water, by reflection, refraction and total
+// internal reflection, and lit as the rasterizer lights it: the same triangles, attributes, textures and shading
+// function.
 //
 // Water is its plane, with the waves' normals bent to valid ones, or, displaced, the height field itself:
 // rays may cross it again and again, from both sides.
@@ -102,8 +103,7 @@ void trace_region(const TraceIn& in, const TraceOut& out, std::size_t region) {
     path.medium = in.view.eye_in_water;
     rays.count(RayCounts::kPrimary, path.lanes);
     PathTracer(in.scene, rays, recorder, pixel, limits, color).trace(path);
-    if (in.view.accumulate)
-      finish_block(in.view, in.grids.frame, block, in.post, exposure, color, out.lit, out.srgb8);
+    if (in.view.accumulate) finish_block(in.view, in.grids.frame, block, in.post, exposure, color, out.lit, out.srgb8);
   });
 }
 

@@ -11,19 +11,20 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
+struct Options {
+  float stride = 1, thickness = 0.5f, jitter = 0;
+  int max_steps = 512;
+  float max_distance = 100;
+};
+constexpr MethodOption kOptions[] = {
+    method_option<&Options::stride>("stride", 1, 64, "pixels a step"),
+    method_option<&Options::thickness>("thickness", 0.001f, 1000, "metres that what is drawn reaches back"),
+    method_option<&Options::jitter>("jitter", 0, 1, "of the first step, in strides"),
+    method_option<&Options::max_steps>("max-steps", 1, 16384, "steps of the march"),
+    method_option<&Options::max_distance>("max-distance", 0.01f, 1e6f, "metres that the refracted ray goes"),
+};
+
 struct ScreenSpace : StraightRays {
-  struct Options {
-    float stride = 1, thickness = 0.5f, jitter = 0;
-    int max_steps = 512;
-    float max_distance = 100;
-  };
-  static constexpr MethodOption kOptions[] = {
-      method_option<&Options::stride>("stride", 1, 64, "pixels a step"),
-      method_option<&Options::thickness>("thickness", 0.001f, 1000, "metres that what is drawn reaches back"),
-      method_option<&Options::jitter>("jitter", 0, 1, "of the first step, in strides"),
-      method_option<&Options::max_steps>("max-steps", 1, 16384, "steps of the march"),
-      method_option<&Options::max_distance>("max-distance", 0.01f, 1e6f, "metres that the refracted ray goes"),
-  };
   static constexpr bool kWholeScene = true;
 
   static LayerPlace<WideF> sample_place(const SampleIn& in) {
@@ -44,7 +45,7 @@ struct ScreenSpace : StraightRays {
 Method screen_space() {
   return image_space_method<ScreenSpace>("screen-space",
                                          "the refracted ray marched through the depth of the frame without its water",
-                                         "McGuire and Mara 2014");
+                                         "McGuire and Mara 2014", option_list<Options>(kOptions));
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

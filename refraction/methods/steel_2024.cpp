@@ -20,25 +20,26 @@ namespace {
 // Where nothing is drawn the ray counts as this long, so that its direction alone matters.
 constexpr float kOpen_m = 1e4f;
 
+struct Options {
+  int steps = 4;
+  bool pom = false;
+  int pom_steps = 128;
+  bool tessellate = true;
+};
+constexpr MethodOption kOptions[] = {
+    method_option<&Options::steps>("steps", 1, 64, "steps of the fixed point"),
+    method_option<&Options::pom>("pom", "parallax occlusion mapping: march to what the bent ray hits"),
+    method_option<&Options::pom_steps>("pom-steps", 1, 4096, "pixels that the march may go"),
+    method_option<&Options::tessellate>("tessellate", "split edges that the broad phase bends"),
+};
+
 struct Steel2024 : TrueRays {
-  struct Options {
-    int steps = 4;
-    bool pom = false;
-    int pom_steps = 128;
-    bool tessellate = true;
-  };
-  static constexpr MethodOption kOptions[] = {
-      method_option<&Options::steps>("steps", 1, 64, "steps of the fixed point"),
-      method_option<&Options::pom>("pom", "parallax occlusion mapping: march to what the bent ray hits"),
-      method_option<&Options::pom_steps>("pom-steps", 1, 4096, "pixels that the march may go"),
-      method_option<&Options::tessellate>("tessellate", "split edges that the broad phase bends"),
-  };
   static constexpr bool kWholeScene = false;
 
-  static FixedPointMap own_map(const WaterOptics& optics, const Options& options) {
-    return {optics.exact, options.steps};
+  static FixedPointMap own_map(const WaterOptics& optics, const MethodState& state) {
+    return {optics.exact, state.options_as<Options>().steps};
   }
-  static bool splits_edges(const Options& options) { return options.tessellate; }
+  static bool splits_edges(const MethodState& state) { return state.options_as<Options>().tessellate; }
 
   static LayerPlace<WideF> sample_place(const SampleIn& in) {
     const Options& options = in.options<Options>();
@@ -57,8 +58,7 @@ struct Steel2024 : TrueRays {
     const WideF depth_m = view_depth_m(in.view(), select(shows, drawn, WideF(1.0f)));
     const WideF beyond = max((depth_m - in.at.t) * length(in.view_ray.direction_world), WideF(0.0f));
     const WideF distance = select(shows, beyond, WideF(kOpen_m));
-    const LayerPlace<WideF> parallax =
-        project_place(in.view(), in.at.crossing_world + virtual_direction * distance);
+    const LayerPlace<WideF> parallax = project_place(in.view(), in.at.crossing_world + virtual_direction * distance);
     if (!options.pom) return parallax;
 
     DepthMarch how;
@@ -74,7 +74,7 @@ struct Steel2024 : TrueRays {
 
 Method steel_2024() {
   return image_space_method<Steel2024>("steel-2024", "fixed-point apparent depth, parallax narrow phase, image space",
-                                       "Steel 2024");
+                                       "Steel 2024", option_list<Options>(kOptions));
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

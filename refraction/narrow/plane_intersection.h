@@ -9,8 +9,8 @@ namespace shoal::inline SHOAL_ISA_NS {
 // Where nothing is drawn the ray counts as this long, so that its direction alone matters.
 inline constexpr float kOpen_m = 1e4f;
 
-// The distance along a ray from the surface at which it intersects the plane of the triangle that the layer shows at the
-// pixel itself; where the ray goes along that plane or away from it, the distance of the point shown.
+// The distance along a ray from the surface at which it intersects the plane of the triangle that the layer shows at
+// the pixel itself; where the ray goes along that plane or away from it, the distance of the point shown.
 SHOAL_INLINE WideF plane_distance(const SampleIn& in, const Ray<WideF>& ray) {
   const LayerView& layer = in.narrow.layer;
   const WideI own = WideI::load(layer.id() + layer.grid().offset(in.block.x_px, in.block.y_px));

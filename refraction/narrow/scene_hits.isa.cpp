@@ -76,8 +76,8 @@ void refracted_hits(const HybridNarrowIn& in, bool bent, HitBlock* hits, std::si
     if (interface.shows == 0) return;
     HitBlock& out = hits[at_block];
     const WideM through = mask_from_bits(interface.shows & interface.transmitted);
-    const PixelRays<WideF> rays = refracted_rays(in.rays, {in.view.view, in.grids.frame, in.optics, block.x_px,
-                                                           block.y_px, interface, out, in.state.options});
+    const PixelRays<WideF> rays = refracted_rays(
+        in.rays, {in.view.view, in.grids.frame, in.optics, block.x_px, block.y_px, interface, out, in.state.options});
     const NearestHit hit = search.nearest(block, rays, through);
     if (!valid && in.wants_positions) {
       hit.id.store(out.refracted_triangle);
@@ -97,8 +97,9 @@ void reflected_hits(const ReflectedHitsIn& in, HitBlock* hits, std::size_t regio
     HitBlock& out = hits[at_block];
     const WideM here = mask_from_bits(interface.shows);
     const ExactRay<WideF> at = load_interface(interface);
-    const PixelRays<WideF> rays = reflected_rays(in.own_rays, {in.view.view, in.grids.frame, in.optics, block.x_px,
-                                                               block.y_px, interface, out, in.state.options}, at);
+    const PixelRays<WideF> rays = reflected_rays(
+        in.own_rays,
+        {in.view.view, in.grids.frame, in.optics, block.x_px, block.y_px, interface, out, in.state.options}, at);
     const NearestHit hit = search.nearest(block, rays, here);
     if (in.reflected == nullptr && in.wants_positions) {
       hit.id.store(out.reflected_triangle);

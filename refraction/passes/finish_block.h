@@ -39,7 +39,8 @@ SHOAL_INLINE void finish_block(const ViewState& view, const FrameGrid& frame, co
   }
   std::uint8_t tile[48];
   store_rgb8_block(tile, 12, r, g, b);
-  const int columns = min(kBlockSize, frame.width_px - block.x_px), rows = min(kBlockSize, frame.height_px - block.y_px);
+  const int columns = min(kBlockSize, frame.width_px - block.x_px),
+            rows = min(kBlockSize, frame.height_px - block.y_px);
   for (int y = 0; y < rows; ++y)
     std::memcpy(pixels + static_cast<std::size_t>(y) * row_bytes, tile + 12 * y, static_cast<std::size_t>(columns) * 3);
 }

@@ -51,8 +51,8 @@ void light_block(const LightLayerIn& in, LitLayer& out, const Block& block) {
   if (optics.whole_scene && any(drawn)) {
     const WideF depth_m =
         view_depth_m(in.view.view, select(drawn, WideF::load(in.refracted.depth.data() + drawn_at), WideF(1.0f)));
-    wet = drawn & (height_over(optics.body(), along.ray.origin_world + along.ray.direction_world * depth_m) <
-                   WideF(0.0f));
+    wet = drawn &
+          (height_over(optics.body(), along.ray.origin_world + along.ray.direction_world * depth_m) < WideF(0.0f));
   }
   const LightMedium* medium = &in.scene.light_media[optics.water.index];
   for (const bool in_water : {true, false}) {

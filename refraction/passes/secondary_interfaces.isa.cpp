@@ -47,8 +47,8 @@ void trace_secondary_interfaces(const SecondaryIn& in, const SecondaryOut& out, 
     if (interface.shows == 0) return;
     const HitBlock& hits = in.hits[at_block];
     const WideM here = mask_from_bits(interface.shows), transmitted = mask_from_bits(interface.transmitted);
-    const WideM refracted = in.refracted ? here & transmitted & (WideI::load(hits.refracted_id) < WideI(0))
-                                         : mask_from_bits(0);
+    const WideM refracted =
+        in.refracted ? here & transmitted & (WideI::load(hits.refracted_id) < WideI(0)) : mask_from_bits(0);
     const WideM reflected =
         in.optics.reflects_scene ? here & (WideI::load(hits.reflected_id) < WideI(0)) : mask_from_bits(0);
     if (none(refracted | reflected)) return;
@@ -64,11 +64,10 @@ void trace_secondary_interfaces(const SecondaryIn& in, const SecondaryOut& out, 
       Path path;
       static_cast<WaterQuery&>(path) = onward_query(in.optics, at, from.ray, reflected_rays_go, lanes);
       path.differential = from.differential;
-      path.weight = broadcast<WideF>(Vec3f{1, 1, 1}) * (reflected_rays_go ? at.reflectance : WideF(1.0f) - at.reflectance);
+      path.weight =
+          broadcast<WideF>(Vec3f{1, 1, 1}) * (reflected_rays_go ? at.reflectance : WideF(1.0f) - at.reflectance);
       path.level = 2;
-      path.medium = reflected_rays_go             ? in.view.eye_in_water
-                    : in.optics.exact.eye_below ? kAir
-                                                : in.optics.water.index;
+      path.medium = reflected_rays_go ? in.view.eye_in_water : in.optics.exact.eye_below ? kAir : in.optics.water.index;
       path.shows = reflected_rays_go ? lanes & !transmitted : lanes;
       path.shown_as = reflected_rays_go ? HitKind::kMirror : HitKind::kSurface;
       path.first_body = in.optics.water.index;

@@ -15,8 +15,8 @@ struct ShadeIn {
   const ViewState& view;
   const FrameGrids& grids;
   const VisibilityBuffer& direct;
-  const WaterLight& water;            // of the pixels that show water
-  const BlendLayer* blended_direct;   // null in a scene without blended materials
+  const WaterLight& water;           // of the pixels that show water
+  const BlendLayer* blended_direct;  // null in a scene without blended materials
   PostSettings post;
 };
 struct ShadeOut {

@@ -1,6 +1,7 @@
 // Resolve, light and post (refraction/passes/shade_pass.h).
 #include "refraction/passes/shade_pass.h"
 
+#include "raster/ray_triangle.h"
 #include "refraction/data/capture.h"
 #include "refraction/passes/finish_block.h"
 #include "refraction/passes/prefetch.h"
@@ -58,8 +59,7 @@ void shade(const ShadeIn& in, const ShadeOut& out, std::size_t region) {
     prefetch_ids(in, block.offset);
     prefetch_triangles(in.scene, in.direct.id.data(), in.direct.id.size(), block.offset);
     shade_block(in, out.gbuffer, block, color);
-    if (in.view.accumulate)
-      finish_block(in.view, in.grids.frame, block, in.post, exposure, color, out.lit, out.srgb8);
+    if (in.view.accumulate) finish_block(in.view, in.grids.frame, block, in.post, exposure, color, out.lit, out.srgb8);
   });
 }
 

@@ -25,7 +25,7 @@ struct SecondaryIn {
   PixelRaysFunction rays;           // refracted, of the method
   PixelRaysFunction own_reflected;  // a method's own reflected rays, or null
   const void* options;
-  bool reflects_scene;              // --reflections
+  bool reflects_scene;  // --reflections
 };
 struct SecondaryOut {
   SecondaryBlock* light;
@@ -39,14 +39,14 @@ struct ShadeWaterIn {
   const WaterOptics& optics;
   const WaterInterface& interface;
   const HitBlock* hits;
-  const FetchedBlock* fetched;      // of an image-space method, else null
+  const FetchedBlock* fetched;  // of an image-space method, else null
   const SecondaryBlock* secondary;
   const BlendLayer* blended_refracted;  // null in a scene without blended materials
   const BlendLayer* blended_reflected;
   PixelRaysFunction rays;           // refracted, of the method
   PixelRaysFunction own_reflected;  // a method's own reflected rays, or null
   const void* options;
-  bool misses;                      // the method may find nothing where there is something
+  bool misses;  // the method may find nothing where there is something
 };
 struct ShadeWaterOut {
   WaterLight& light;

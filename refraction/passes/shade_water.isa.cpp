@@ -71,9 +71,9 @@ struct WaterBlock {
       store_hits(out.hits, block.offset, HitKind::kMiss, WideI(kNoId), zero, zero, through & !is_triangle(shown));
     const WideM secondary = through & (shown < WideI(0));
     const PixelRays<WideF> rays = refracted_rays(in.rays, rays_in);
-    const Vec3<WideF> radiance = radiance_along(
-        rays, shown, through & !secondary, !in.optics.exact.eye_below, HitKind::kSurface, at.transmitted,
-        [&](const Vec3<WideF>& p) SHOAL_LAMBDA { return virtual_position(in.optics.exact, p); });
+    const Vec3<WideF> radiance =
+        radiance_along(rays, shown, through & !secondary, !in.optics.exact.eye_below, HitKind::kSurface, at.transmitted,
+                       [&](const Vec3<WideF>& p) SHOAL_LAMBDA { return virtual_position(in.optics.exact, p); });
     return select<WideF>(secondary, zero, radiance);
   }
 
@@ -94,11 +94,9 @@ struct WaterBlock {
     const WideI shown = WideI::load(hits.reflected_id);
     const WideM secondary = lanes & (shown < WideI(0));
     const PixelRays<WideF> rays = reflected_rays(in.own_reflected, rays_in, at);
-    Vec3<WideF> radiance =
-        radiance_along(rays, shown, lanes & !secondary, eye_below, HitKind::kMirror, !at.transmitted,
-                       [](const Vec3<WideF>& p) SHOAL_LAMBDA { return p; });
-    if (filtered && !eye_below)
-      radiance = select<WideF>(lanes & !is_triangle(shown), filtered_background(), radiance);
+    Vec3<WideF> radiance = radiance_along(rays, shown, lanes & !secondary, eye_below, HitKind::kMirror, !at.transmitted,
+                                          [](const Vec3<WideF>& p) SHOAL_LAMBDA { return p; });
+    if (filtered && !eye_below) radiance = select<WideF>(lanes & !is_triangle(shown), filtered_background(), radiance);
     return select<WideF>(secondary, broadcast<WideF>(Vec3f{0, 0, 0}), radiance);
   }
 
@@ -117,8 +115,7 @@ struct WaterBlock {
       if (in.optics.reflects_scene) lay_over(*in.blended_reflected, block, lanes, above, nullptr);
     }
     const SecondaryBlock& secondary = in.secondary[at_block];
-    const Vec3<WideF> from_water =
-        secondary.lanes != 0 ? load3(secondary.radiance) : broadcast<WideF>(Vec3f{0, 0, 0});
+    const Vec3<WideF> from_water = secondary.lanes != 0 ? load3(secondary.radiance) : broadcast<WideF>(Vec3f{0, 0, 0});
     Vec3<WideF> mixed = (below * (WideF(1.0f) - at.reflectance) + above * at.reflectance) + from_water;
     if (in.view.eye_in_water >= 0) {
       const WaterBody& around_eye = *in.scene.water[static_cast<std::size_t>(in.view.eye_in_water)].body;
@@ -138,8 +135,9 @@ void shade_water(const ShadeWaterIn& in, const ShadeWaterOut& out, std::size_t r
     prefetch_block_triangles(in.scene, in.hits, at_block);
     if (interface.shows == 0) return;
     const HitBlock& hits = in.hits[at_block];
-    WaterBlock{in, out, block, interface, hits,
-               {in.view.view, in.grids.frame, in.optics, block.x_px, block.y_px, interface, hits, in.options}}
+    WaterBlock{in,    out,
+               block, interface,
+               hits,  {in.view.view, in.grids.frame, in.optics, block.x_px, block.y_px, interface, hits, in.options}}
         .shade();
   });
 }

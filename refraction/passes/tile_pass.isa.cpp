@@ -23,7 +23,8 @@ void draw_tile(const TilePassIn& in, VisibilityBuffer& out, std::size_t tile) {
   const int x0 = static_cast<int>(tile % static_cast<std::size_t>(in.tiles.tiles_x)) * size;
   const int y0 = static_cast<int>(tile / static_cast<std::size_t>(in.tiles.tiles_x)) * size;
   const PassAlpha alpha{in};
-  TileRaster<PassAlpha> raster(out, alpha, x0, y0, min(x0 + size, out.grid.width_px), min(y0 + size, out.grid.height_px));
+  TileRaster<PassAlpha> raster(out, alpha, x0, y0, min(x0 + size, out.grid.width_px),
+                               min(y0 + size, out.grid.height_px));
   raster.clear();
   if (in.first != nullptr)
     for (const WorkItemBins& work_item : in.first->work_items) raster.draw(work_item, static_cast<std::uint32_t>(tile));

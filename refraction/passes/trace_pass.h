@@ -33,7 +33,7 @@ struct TraceOut {
   InterfaceTarget& interface;
   LitBuffer& lit;
   std::uint8_t* srgb8;
-  RayCounts& counts;             // added to
+  RayCounts& counts;            // added to
   std::uint64_t& water_pixels;  // added to, from all threads
 };
 

@@ -53,7 +53,7 @@ struct RefractedProgram : LayerProgram {
   }
   bool meshlet_bends(const Meshlet& meshlet) const {
     return meshlet_deviation_bound_px(water.optics->map, view, meshlet.bounds_min_world, meshlet.bounds_max_world,
-                                    meshlet.longest_edge_m) > kEdgeThresholdPx;
+                                      meshlet.longest_edge_m) > kEdgeThresholdPx;
   }
   __attribute__((noinline)) WideM edge_bends(Vec3<WideF> a, Vec3<WideF> b) const {
     return edge_deviation_px(water.optics->map, view, a, b) > WideF(kEdgeThresholdPx);
@@ -87,8 +87,8 @@ struct MappedProgram : LayerProgram {
            box_outside_view(meshlet.bounds_min_world, meshlet.bounds_max_world);
   }
   bool meshlet_bends(const Meshlet& meshlet) const {
-    return splits && meshlet_deviation_bound_px(water.optics->exact, view, meshlet.bounds_min_world, meshlet.bounds_max_world,
-                                              meshlet.longest_edge_m) > kEdgeThresholdPx;
+    return splits && meshlet_deviation_bound_px(water.optics->exact, view, meshlet.bounds_min_world,
+                                                meshlet.bounds_max_world, meshlet.longest_edge_m) > kEdgeThresholdPx;
   }
   __attribute__((noinline)) WideM edge_bends(Vec3<WideF> a, Vec3<WideF> b) const {
     if (!splits) return mask_from_bits(0);

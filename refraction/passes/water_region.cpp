@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "raster/ray_triangle.h"
 #include "water/nearest_water.h"
 
 namespace shoal {
