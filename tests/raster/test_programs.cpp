@@ -58,11 +58,11 @@ struct Picture {
 };
 
 template <class VertexProgram, class PixelProgram>
-Picture draw_picture(Geometry geometry, const Materials& materials, const VertexProgram& vertex,
+Picture draw_picture(Geometry geometry, const std::vector<DrawState>& draw_states, const VertexProgram& vertex,
                      const PixelProgram& pixel, const View& view, int tile_px) {
   const PassSettings pass = whole_frame(view.width_px, view.height_px, view.centre_px, tile_px);
   VisibilityBuffer seen;
-  draw_tiles(bin_geometry(geometry, materials, vertex, pass, 4), pass, KeepAll{}, seen);
+  draw_tiles(bin_geometry(geometry, draw_states, vertex, pass, 4), pass, KeepAll{}, seen);
 
   // The pixel stages read positions and normals from the vertex records: there, too, they are where the program puts
   // them.
@@ -71,7 +71,7 @@ Picture draw_picture(Geometry geometry, const Materials& materials, const Vertex
     v.position_world = vertex.turn(v.position_world, height);
     v.normal_world = vertex.turn(v.normal_world, height);
   }
-  const GeometryView records = view_of(geometry, materials);
+  const GeometryView records = view_of(geometry, draw_states.data());
   const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(view);
   Picture out;
   out.color.resize(static_cast<std::size_t>(view.width_px * view.height_px), Vec3f{0, 0, 0});
@@ -181,14 +181,13 @@ Truth shade_in_double(const Geometry& g, float turn_per_m, const View& view, int
 
 TEST_CASE("programs: a user's twist and checkerboard draw what double precision says") {
   const Geometry geometry = tower(40);
-  Materials materials;
-  materials.materials.emplace_back();
+  const std::vector<DrawState> draw_states(1);
   Camera camera;
   camera.position_world = {0.3f, 1.6f, 5};
   const int width = 99, height = 122;
   const View view = make_view(camera, width, height, {0, 0});
   const Twist twist{view, 0.7f};
-  const Picture picture = draw_picture(geometry, materials, twist, Checker{}, view, 64);
+  const Picture picture = draw_picture(geometry, draw_states, twist, Checker{}, view, 64);
 
   long drawn = 0, same = 0, close = 0, whites = 0, next_to_edge = 0;
   for (int y = 0; y < height; ++y)
@@ -212,7 +211,7 @@ TEST_CASE("programs: a user's twist and checkerboard draw what double precision 
   CHECK(next_to_edge < 20);
 
   // The same bytes from other tiles.
-  const Picture other = draw_picture(geometry, materials, twist, Checker{}, view, 16);
+  const Picture other = draw_picture(geometry, draw_states, twist, Checker{}, view, 16);
   CHECK(other.id == picture.id);
   CHECK(std::equal(other.color.begin(), other.color.end(), picture.color.begin(),
                    [](Vec3f a, Vec3f b) { return a.x == b.x && a.y == b.y && a.z == b.z; }));
