@@ -1,11 +1,11 @@
 // shade_hits and alpha_bits on a triangle by itself: under water against double precision, and what shadow rays get.
 #include "shading/shade_hits.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "../core/isa_case.h"
 #include "shading/shadow/shadow_map.h"
 
 using namespace shoal;
@@ -75,7 +75,7 @@ std::uint32_t block_odd(const void* context, const ShadowQuery& query, const Sun
 
 }  // namespace
 
-TEST_CASE("shade_hits: water dims the light of points below its plane, and no others") {
+SHOAL_ISA_CASE(water_dims, "shade_hits: water dims the light of points below its plane, and no others") {
   const Pit pit;
   const ShadedLanes air = pit.shade(nullptr);
   CHECK(extract(air.t, 7) == Approx(4));
@@ -99,7 +99,8 @@ TEST_CASE("shade_hits: water dims the light of points below its plane, and no ot
   for (int lane = 0; lane < 16; ++lane) CHECK(extract(dry.radiance.y, lane) == extract(air.radiance.y, lane));
 }
 
-TEST_CASE("shade_hits: shadow rays get the points, the facet and the water's bend, and take the sun's light") {
+SHOAL_ISA_CASE(shadow_rays,
+               "shade_hits: shadow rays get the points, the facet and the water's bend, and take the sun's light") {
   Pit pit;
   Recorder recorder;
   pit.view.shadow_rays = {&block_odd, &recorder};
@@ -125,7 +126,8 @@ TEST_CASE("shade_hits: shadow rays get the points, the facet and the water's ben
   CHECK(recorder.calls == 2);
 }
 
-TEST_CASE("shade_hits: lanes of different materials are shaded as if alone; an unlit one is its colour") {
+SHOAL_ISA_CASE(materials_apart,
+               "shade_hits: lanes of different materials are shaded as if alone; an unlit one is its colour") {
   Pit pit;
   pit.materials.resize(2);
   pit.materials[1].base_color = {1, 0.5f, 0.125f, 1};
@@ -148,7 +150,7 @@ TEST_CASE("shade_hits: lanes of different materials are shaded as if alone; an u
   }
 }
 
-TEST_CASE("alpha_bits: covered pixels whose alpha reaches the cutoff") {
+SHOAL_ISA_CASE(alpha_cut_out, "alpha_bits: covered pixels whose alpha reaches the cutoff") {
   Pit pit;
   // Texels left to right: alpha 0 and 1, nearest.
   const std::uint8_t texels[8] = {255, 255, 255, 0, 255, 255, 255, 255};
