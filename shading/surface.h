@@ -1,4 +1,4 @@
-// What a pixel program makes of a material and interpolated attributes: the content of the G-buffer.
+// Surface points, made from a material and interpolated attributes: the content of the G-buffer.
 #pragma once
 
 #include "core/vec_lanes.h"
@@ -16,7 +16,7 @@ struct SurfaceSample {
   F alpha;
   F metallic, roughness;  // 0 to 1
   Vec3<F> emissive;
-  F f0_dielectric = F(0.04f);  // reflectance at normal incidence of what is no metal
+  F f0_dielectric = F(0.04f);  // reflectance at normal incidence of the part that is not metal
   F occlusion = F(1.0f);       // share of ambient light that arrives
 };
 
@@ -30,7 +30,7 @@ namespace shoal::inline SHOAL_ISA_NS {
 //   uv, duv_dx, duv_dy  the base colour's texture coordinates and their change over one pixel
 //   vertex_color      linear RGBA; 1 where the mesh has none
 //   view_direction    world, from the point towards the eye, any length
-//   active            lanes that are wanted; the others hold no surface
+//   active            lanes that are set; the others hold no surface
 // Source: glTF 2.0, 3.9 (materials): factors, texture and COLOR_0 multiply. Differs: a double-sided material's normal
 // is turned by the shading normal's side, not by the triangle's. The other textures: shading/surface_maps.h.
 template <class F>

@@ -51,8 +51,7 @@ void draw_tiles(const std::vector<WorkItemBins>& work_items, const PassSettings&
       TileRaster<AlphaTest> raster(out, alpha, x0, y0, std::min(x0 + grid.tile_px, pass.width_px),
                                    std::min(y0 + grid.tile_px, pass.height_px));
       raster.clear();
-      for (const WorkItemBins& work_item : work_items)
-        raster.draw(work_item, static_cast<std::uint32_t>(ty * grid.tiles_x + tx));
+      for (const WorkItemBins& bins : work_items) raster.draw(bins, static_cast<std::uint32_t>(ty * grid.tiles_x + tx));
     }
 }
 

@@ -135,7 +135,7 @@ TEST_CASE("depth: at covered pixels as the plane of the snapped corners in doubl
 }
 
 TEST_CASE(
-    "depth: the nearest triangle shows, the smaller id where depths are equal, whatever order, tile or work_item") {
+    "depth: the nearest triangle shows, the smaller id where depths are equal, whatever order, tile or work item") {
   TestRandom random(22);
   const int width = 131, height = 77;
   const Vec2f centre{65.5f, 38.5f};

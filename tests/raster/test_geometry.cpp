@@ -1,4 +1,4 @@
-// Chunking: every triangle once, in order, where it was, within the limits.
+// Meshlets: every triangle once, in order, where it was, within the limits.
 #include <catch2/catch.hpp>
 
 #include <cmath>

@@ -136,19 +136,19 @@ Vec3d twisted(Vec3f v, float height, float turn_per_m) {
   return {c * d.x - s * d.z, d.y, s * d.x + c * d.z};
 }
 
-struct Truth {
+struct Expected {
   std::int32_t id = kNoId;
   Vec3d color{0, 0, 0};
   double from_edge = 1;  // of the checkerboard, in squares
 };
 
-Truth shade_in_double(const Geometry& g, float turn_per_m, const View& view, int x, int y) {
+Expected shade_in_double(const Geometry& g, float turn_per_m, const View& view, int x, int y) {
   const double dx = x + 0.5 - static_cast<double>(view.centre_px.x),
                dy = y + 0.5 - static_cast<double>(view.centre_px.y);
   const Vec3d o = as_double(view.camera.position_world);
   const Vec3d d = as_double(view.camera.forward_world) + as_double(view.ray_dx) * dx + as_double(view.ray_dy) * dy;
   double nearest = std::numeric_limits<double>::infinity();
-  Truth out;
+  Expected out;
   for (std::size_t i = 0; i < g.triangles.size(); ++i) {
     const VertexRecord* v[3];
     Vec3d p[3], n[3];
@@ -193,15 +193,15 @@ TEST_CASE("programs: a user's twist and checkerboard draw what double precision 
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const std::size_t at = static_cast<std::size_t>(y * width + x);
-      const Truth truth = shade_in_double(geometry, twist.turn_per_m, view, x, y);
-      drawn += truth.id != kNoId;
-      if (picture.id[at] != truth.id) continue;  // at edges, within the grid's 1/512 px; counted below
-      same += truth.id != kNoId;
-      whites += truth.id != kNoId && truth.color.x != 0.1;
-      const Vec3d off = as_double(picture.color[at]) - truth.color;
+      const Expected expected = shade_in_double(geometry, twist.turn_per_m, view, x, y);
+      drawn += expected.id != kNoId;
+      if (picture.id[at] != expected.id) continue;  // at edges, within the grid's 1/512 px; counted below
+      same += expected.id != kNoId;
+      whites += expected.id != kNoId && expected.color.x != 0.1;
+      const Vec3d off = as_double(picture.color[at]) - expected.color;
       const bool right = std::fabs(off.x) < 1e-5 && std::fabs(off.y) < 1e-5 && std::fabs(off.z) < 1e-5;
-      next_to_edge += truth.id != kNoId && truth.from_edge < 1e-4;
-      close += truth.id != kNoId && (right || truth.from_edge < 1e-4);
+      next_to_edge += expected.id != kNoId && expected.from_edge < 1e-4;
+      close += expected.id != kNoId && (right || expected.from_edge < 1e-4);
     }
   CAPTURE(drawn, same, close, whites, next_to_edge);
   CHECK(drawn > 1500);
