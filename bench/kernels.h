@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "bench/gbuffer_block.h"
 #include "bench/solvers/path_solvers.h"
 #include "core/isa_dispatch.h"
-#include "shading/surface.h"
 #include "refraction/frame_data.h"
 
 namespace shoal::bench {

@@ -1,10 +1,10 @@
 #include "compare/hits.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/float_mode.h"
+#include "raster/geometry_lookup.h"
 #include "refraction/broad/broad_phase.h"
 
 namespace shoal {
@@ -33,13 +33,10 @@ Hits hits_of(const Frame& frame) {
           require_aov(frame, Aov::kHitPosition).floats, require_aov(frame, Aov::kHitId).uints};
 }
 
-// Which drawable a triangle is of: the last one that starts at or before it; none for none.
+// The drawable of a triangle; the number of drawables for none.
 std::size_t object_of(const Geometry& geometry, std::uint32_t triangle) {
-  const auto after =
-      std::upper_bound(geometry.drawables.begin(), geometry.drawables.end(), triangle,
-                       [](std::uint32_t id, const Drawable& drawable) { return id < drawable.first_triangle; });
-  if (triangle == kNoTriangle || after == geometry.drawables.begin()) return geometry.drawables.size();
-  return static_cast<std::size_t>(after - geometry.drawables.begin()) - 1;
+  if (triangle == kNoTriangle || geometry.drawables.empty()) return geometry.drawables.size();
+  return drawable_of(geometry, static_cast<std::int32_t>(triangle));
 }
 
 // Where the broad phase puts a point on the screen.

@@ -14,7 +14,8 @@ inline constexpr int kBlockSize = 4;  // pixels a side
 inline constexpr int kBlockPixels = 16;
 inline constexpr int kRegionSize = 64;  // pixels a side: the fixed grid that every image is padded to
 
-// Memory from calloc-like pages: big buffers are zero at first and cost nothing until touched.
+// An array of plain values on a cache line of its own. Memory is not initialized, so pages of a big array cost nothing
+// until they are written.
 template <class T>
 class AlignedArray {
  public:
@@ -45,15 +46,13 @@ class AlignedArray {
   std::size_t size_ = 0;
 };
 
-// Size of a frame in its several grids.
+// Size of a frame in pixels, 4-pixel blocks and 64-pixel regions.
 struct FrameGrid {
   int width_px = 0, height_px = 0;
   int regions_x = 0, regions_y = 0;  // 64-pixel regions that cover the frame
   int blocks_x = 0, blocks_y = 0;    // 4-pixel blocks of the padded image: 16 a region
   std::size_t block_count() const { return static_cast<std::size_t>(blocks_x) * static_cast<std::size_t>(blocks_y); }
-  std::size_t region_count() const {
-    return static_cast<std::size_t>(regions_x) * static_cast<std::size_t>(regions_y);
-  }
+  std::size_t region_count() const { return static_cast<std::size_t>(regions_x) * static_cast<std::size_t>(regions_y); }
   std::size_t pixel_slots() const { return block_count() * kBlockPixels; }
   // Index of a block's first pixel slot.
   std::size_t block_offset(int block_x, int block_y) const {

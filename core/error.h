@@ -1,4 +1,4 @@
-// The one exception of Shoal, and checks of broken invariants.
+// The exceptions that Shoal throws.
 #pragma once
 
 #include <stdexcept>
@@ -12,7 +12,7 @@ struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A method that cannot show a scene, by what it is made for.
+// A method that is not applicable to a scene (block-grid, for example, needs a flat floor).
 struct NotApplicable : Error {
   using Error::Error;
 };

@@ -204,18 +204,6 @@ SHOAL_INLINE F det_atan(F x) {
   return det_atan2(x, F(1.0f));
 }
 
-// Arc sine in radians, within -pi/2..pi/2. x is clamped to -1..1; a NaN is taken as 0. Error: 2.5 ULP.
-template <class F>
-SHOAL_INLINE F det_asin(F x) {
-  const F v = math_detail::unless_nan(x, F(0.0f));
-  const F a = min(abs(v), F(1.0f));
-  const MaskOf<F> outer = a > F(0.5f);
-  const F z = select(outer, (F(1.0f) - a) * F(0.5f), a * a);
-  const F p = math_detail::asin_near_zero(select(outer, sqrt(z), a), z);
-  const F r = select(outer, F(kHalfPi) - ((p + p) + F(0x1.777a5cp-25f)), p);
-  return flip_sign_if(r, as_int(v) < IntOf<F>(0));
-}
-
 // Arc cosine in radians, within 0..pi. x is clamped to -1..1; a NaN is taken as 0 (pi/2). Error: 1.5 ULP, near 1 too.
 template <class F>
 SHOAL_INLINE F det_acos(F x) {

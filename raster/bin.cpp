@@ -7,7 +7,8 @@ BinGrid make_bin_grid(int width_px, int height_px, int tile_px) {
   g.tile_px = tile_px;
   g.tile_shift = 0;
   while ((1 << g.tile_shift) < tile_px) ++g.tile_shift;
-  // A frame of many small tiles would need more memory for empty bins than for triangles. Results do not depend on it.
+  // With many small tiles the empty bins would need more memory than the triangles. Results do not depend on tile
+  // sizes.
   auto tiles = [&] {
     g.tiles_x = (width_px + g.tile_px - 1) >> g.tile_shift;
     g.tiles_y = (height_px + g.tile_px - 1) >> g.tile_shift;
@@ -36,7 +37,7 @@ void WorkItemBins::sort_by_tile(const BinGrid& grid) {
   for (std::size_t t = 0; t < tiles; ++t) tile_first[t + 1] += tile_first[t];
   sorted.resize(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i) sorted[tile_first[entries[i].tile]++] = entries[i];
-  // Each start has moved on to the next tile's: shift back.
+  // The loop above moved each start to the next tile's: shift them back.
   for (std::size_t t = tiles; t > 0; --t) tile_first[t] = tile_first[t - 1];
   tile_first[0] = 0;
 }

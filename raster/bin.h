@@ -1,8 +1,9 @@
 // Bins: set-up triangles in packets of sixteen, and which tiles each packet touches.
 //
-// The front end works on fixed runs of meshlets ("work_items"); each work_item has bins of its own, and a tile reads the work_items in
-// order, so triangles reach a tile in submission order whatever thread made them. Edges are recomputed in the tile from
-// 40 bytes a triangle instead of being carried there (docs/ARCHITECTURE.md, "Bins").
+// The front end works on fixed runs of meshlets, the work items. Each work item has bins of its own, and a tile reads
+// the work items in order, so triangles reach a tile in submission order whichever thread set them up. The tile
+// computes the edge functions anew from 40 bytes a triangle instead of reading them from the bins
+// (docs/ARCHITECTURE.md, "Bins").
 #pragma once
 
 #include <cstdint>
@@ -11,8 +12,8 @@
 
 namespace shoal {
 
-// Visible ids in buffers: a triangle's global id; a body of water b is kFirstWaterId + b (negative, so that at equal
-// depth it counts as earlier than every triangle); kNoId where nothing was drawn.
+// Visible ids in buffers: the global id of a triangle; kFirstWaterId + b for body of water b (negative, so that at
+// equal depth it is in front of every triangle); kNoId where nothing was drawn.
 inline constexpr std::int32_t kNoId = 0x7FFFFFFF;
 inline constexpr std::int32_t kFirstWaterId = -0x7FFFFFFF - 1;
 inline constexpr std::int32_t kMaxWaterBodies = 65536;
@@ -51,13 +52,14 @@ struct BinGrid {
 };
 BinGrid make_bin_grid(int width_px, int height_px, int tile_px);
 
-// What one work_item of the front end produced.
+// The bins of one work item.
 struct WorkItemBins {
   PodVector<TrianglePacket> packets;
   PodVector<LargeTriangle> large;
-  PodVector<BinEntry> entries;  // as found, then sorted by tile, stable
-  PodVector<BinEntry> sorted;
+  PodVector<BinEntry> entries;          // in the order of their triangles
+  PodVector<BinEntry> sorted;           // the same by tile, in that order within a tile
   PodVector<std::uint32_t> tile_first;  // entries of tile t: sorted[tile_first[t] .. tile_first[t + 1])
+  // Counts: triangles before culling and after setup, and those left unsplit at the last level of subdivision.
   std::uint64_t triangles_in = 0, triangles_out = 0, subdivision_capped = 0;
   void clear();
   void sort_by_tile(const BinGrid& grid);

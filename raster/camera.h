@@ -1,4 +1,4 @@
-// Camera and view: how world positions become pixels, and pixels rays.
+// Camera and view: from world positions to pixels, and from pixels to rays.
 //
 // Conventions (docs/ARCHITECTURE.md): metres, right-handed, Y up; pixel (0, 0) is the top left one, its centre at
 // (0.5, 0.5) px; depth = near / w for perspective (infinite far), linear for orthographic; greater is nearer.
@@ -24,24 +24,23 @@ struct Camera {
   float far_m = 1000.0f;  // orthographic only
 };
 
-// The camera of frame k of a repeated run: turned left about world up (+y) by k tenths of a degree, from where it
-// stands.
+// The camera of frame k of a repeated run: turned left about world up (+y) by k tenths of a degree, in its place.
 Camera turned_left(const Camera& camera, std::int64_t k);
 
-// A camera with a frame: everything that a vertex or a pixel needs, computed once (raster/camera.cpp).
+// A camera with a frame size: the constants of all vertices and pixels of a sample (raster/camera.cpp).
 struct View {
   Camera camera;
   int width_px = 0, height_px = 0;
   // Screen: x_px = centre_px.x + dot(row_x, p - C) / w, y_px = centre_px.y + dot(row_y, p - C) / w, w = dot(row_w, p -
   // C) (perspective) or 1 (orthographic). row_y points down the screen.
   Vec3f row_x, row_y, row_w;
-  Vec2f centre_px;  // includes the sample's offset, so that every stage sees one sample a pixel
+  Vec2f centre_px;  // includes the sample's offset, so that every stage has one sample a pixel
   // Rays: perspective D = forward + ray_dx * (x - centre.x) + ray_dy * (y - centre.y), O = C; then t is the view depth.
   // Orthographic: O = C + ray_dx * (x - centre.x) + ray_dy * (y - centre.y), D = forward.
   Vec3f ray_dx, ray_dy;
 };
 
-// Screen position as the rasterizer takes it: x_px = x / w + centre, depth = z / w.
+// Screen position in clip space: x_px = x / w + centre, depth = z / w.
 template <class F>
 struct ClipVertex {
   F x, y;  // pixels times w, relative to the frame's centre
@@ -78,7 +77,7 @@ SHOAL_INLINE Ray<F> pixel_ray(const View& view, F x_px, F y_px) {
   return {eye, forward + across};
 }
 
-// Depth buffer value to metres along the view axis. 0 (nothing there) gives infinity for perspective.
+// Depth buffer value to metres along the view axis; for a perspective camera 0, where nothing is, gives infinity.
 template <class F>
 SHOAL_INLINE F view_depth_m(const View& view, F depth) {
   if (view.camera.orthographic) return F(view.camera.far_m) - depth * F(view.camera.far_m - view.camera.near_m);

@@ -14,13 +14,13 @@
 
 namespace shoal {
 
-// Keeps dot(normal, p) + offset >= 0.
+// The side with dot(normal, p) + offset >= 0 is kept.
 struct Plane {
   Vec3f normal_world;
   float offset_m;
 };
 
-// Three corners and at most one more a plane (one world plane, or near and four sides).
+// Three corners, and at most one more for each plane: one in the world, or near and four sides.
 inline constexpr int kMaxClipped = 9;
 
 template <class V>

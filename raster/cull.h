@@ -1,4 +1,4 @@
-// Conservative culling of whole meshlets against what a pass can see.
+// Conservative culling of whole meshlets against the part of the frame that a pass draws.
 #pragma once
 
 #include "core/vec.h"
@@ -40,7 +40,7 @@ inline Frustum make_frustum(const View& view, int x_min, int y_min, int x_max, i
   return f;
 }
 
-// No point of the box is inside. Rounding errs toward keeping it.
+// Whether no point of the box is inside; in doubt false.
 inline bool box_outside(const Frustum& f, Vec3f lo, Vec3f hi) {
   for (int i = 0; i < 5; ++i) {
     const Vec3f n = f.normal[i];

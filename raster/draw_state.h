@@ -1,4 +1,4 @@
-// What the rasterizer reads of a material.
+// The properties of a material that the rasterizer reads.
 #pragma once
 
 namespace shoal {

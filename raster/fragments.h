@@ -1,9 +1,9 @@
-// Fragments: of all triangles over a region's samples, each sample's nearest few in order, for what is seen through.
+// Fragments: for each sample of a region the nearest few of all triangles over it, in order, for transparency.
 //
 // A sample's fragments are ordered nearest first: by greater depth, at equal depth by smaller id. Lists of at most
-// kFragmentLayers a sample are kept sorted as triangles arrive, so neither their order nor their number matters: what
-// does not fit is dropped from the far end and found again by a further round, which takes only fragments beyond the
-// last one of the round before. Any number of layers is exact in bounded memory (1.1 MB a thread).
+// kFragmentLayers a sample stay sorted as triangles arrive, so neither their order nor their number matters: what does
+// not fit is dropped from the far end, and a further round collects it, which accepts only fragments beyond the last
+// one of the round before. Any number of layers is exact in bounded memory (1.1 MB a thread).
 //
 // Source  Bavoil et al. 2007 (k-buffer); Everitt 2001 (depth peeling), here k layers a round.
 // Differs Exact: no fragment is merged or lost when a list is full.
@@ -27,10 +27,10 @@ struct alignas(64) FragmentLayer {
 };
 inline constexpr float kNoFragment = -1.0f;
 
-// Of one 64-pixel region; blocks row by row.
+// The lists of one 64-pixel region; blocks row by row.
 struct FragmentLists {
   AlignedArray<FragmentLayer> layers;        // [kRegionBlocks][kFragmentLayers]
-  AlignedArray<FragmentLayer> taken;         // [kRegionBlocks] the fragment that each sample's round starts beyond
+  AlignedArray<FragmentLayer> taken;         // [kRegionBlocks] the fragment that each sample's round begins beyond
   std::int32_t count[kRegionBlocks] = {};    // layers that hold anything
   std::uint8_t dropped[kRegionBlocks] = {};  // 1: a list was full
   void allocate() {
@@ -44,12 +44,13 @@ struct FragmentLists {
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-// Is a fragment in front of another? Strictly: never of itself.
+// Whether a fragment is in front of another; no fragment is in front of itself.
 SHOAL_INLINE WideM in_front(WideF depth, WideI id, WideF other_depth, WideI other_id) {
   return (depth > other_depth) | ((depth == other_depth) & (id < other_id));
 }
 
-// Empties the lists for a round; the first of a region takes every fragment.
+// Empties the lists for a round.
+//   first  the first round of a region: it accepts every fragment
 SHOAL_INLINE void start_round(FragmentLists& lists, bool first) {
   for (int b = 0; b < kRegionBlocks; ++b) {
     lists.count[b] = 0;
@@ -60,7 +61,8 @@ SHOAL_INLINE void start_round(FragmentLists& lists, bool first) {
   }
 }
 
-// What TileRaster hands its blocks to: keeps those samples that are in front of the opaque visibility buffer.
+// Receives the covered blocks of a TileRaster and collects their samples that are in front of the opaque visibility
+// buffer.
 class FragmentCollector {
  public:
   static constexpr bool kTests = false;
@@ -73,14 +75,14 @@ class FragmentCollector {
     const std::size_t at = opaque_.grid.block_offset(block_col, block_row);
     const FragmentLayer& taken = lists_.taken[static_cast<std::size_t>(block)];
     const WideI every(triangle);
-    const WideM wanted =
+    const WideM accepted =
         cover & in_front(at_depth, every, WideF::load(opaque_.depth.data() + at), WideI::load(opaque_.id.data() + at)) &
         in_front(WideF::load(taken.depth), WideI::load(taken.id), at_depth, every);
-    if (none(wanted)) return;
+    if (none(accepted)) return;
 
-    // Insertion, each lane into its own list: what is displaced moves on to the next layer.
-    WideF depth = select(wanted, at_depth, WideF(kNoFragment));
-    WideI id = select(wanted, every, WideI(kNoId));
+    // Insertion, each lane into its own list: a displaced fragment moves on to the next layer.
+    WideF depth = select(accepted, at_depth, WideF(kNoFragment));
+    WideI id = select(accepted, every, WideI(kNoId));
     FragmentLayer* layers = lists_.of_block(block);
     const int count = lists_.count[block];
     if (count == kFragmentLayers) {
@@ -115,9 +117,9 @@ class FragmentCollector {
   const VisibilityBuffer& opaque_;
 };
 
-// After a round: each sample of a block goes on beyond its last fragment, if any was dropped there.
-//   more  samples that want more
-// Returns false where the block is done.
+// Prepares a block for a further round, in which each sample begins beyond its last fragment if any was dropped there.
+//   more  samples that need further fragments
+// Returns false where the block needs no further round.
 SHOAL_INLINE bool continue_block(FragmentLists& lists, int block, WideM more) {
   FragmentLayer& taken = lists.taken[static_cast<std::size_t>(block)];
   const FragmentLayer& last = lists.of_block(block)[kFragmentLayers - 1];

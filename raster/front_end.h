@@ -1,14 +1,14 @@
 // Front end: meshlets of the scene through a vertex program, clipping and setup into bins.
 //
-// A vertex program is any callable that takes a world position to a clip vertex, templated on the lane type:
+// A vertex program takes a world position to a clip vertex, templated on the lane type:
 //
 //   struct Program {
 //     template <class F> ClipVertex<F> vertex(Vec3<F> position_world) const;
-//     bool meshlet_outside(const Meshlet&) const;            // conservative: true only if nothing of it can show
+//     bool meshlet_outside(const Meshlet&) const;            // conservative: true only if no pixel can show any of it
 //   };
 //
-// A program that bends straight edges (a broad phase) derives from nothing either, sets kWarped and adds what
-// raster/tessellate.h names. Other programs declare `static constexpr bool kWarped = false;`.
+// A program that bends straight edges (a broad phase) sets `static constexpr bool kWarped = true;` and has the further
+// members that raster/tessellate.h lists. Other programs set it to false.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +26,13 @@ template <class Program>
 class FrontEnd {
  public:
   SHOAL_INLINE FrontEnd(const GeometryView& geometry, const Program& program, const PassSettings& pass,
-                        WorkItemBins& work_item)
-      : geometry_(geometry), program_(program), sink_(pass, work_item), tessellator_(program, sink_) {}
+                        WorkItemBins& bins)
+      : geometry_(geometry), program_(program), sink_(pass, bins), tessellator_(program, sink_) {}
 
   // Meshlets [first, last) of the scene, in order. id_override replaces the triangle ids (a water outline's), or is
   // kNoId.
   void run(std::uint32_t first, std::uint32_t last, std::int32_t id_override) {
-    sink_.work_item().clear();
+    sink_.bins().clear();
     for (std::uint32_t c = first; c < last; ++c) {
       const Meshlet& meshlet = geometry_.meshlets[c];
       if (program_.meshlet_outside(meshlet)) continue;
@@ -44,7 +44,7 @@ class FrontEnd {
 
   // Meshlets of a list, in its order.
   void run(const std::uint32_t* meshlets, std::size_t count) {
-    sink_.work_item().clear();
+    sink_.bins().clear();
     for (std::size_t i = 0; i < count; ++i) {
       const Meshlet& meshlet = geometry_.meshlets[meshlets[i]];
       if (!program_.meshlet_outside(meshlet)) draw_meshlet(meshlet, kNoId);
@@ -62,9 +62,9 @@ class FrontEnd {
   __attribute__((noinline)) void draw_meshlet(const Meshlet& meshlet, std::int32_t id_override) {
     const DrawState& state = geometry_.draw_states[meshlet.material];
     const bool alpha_tested = state.alpha_tested, two_sided = state.double_sided;
-    sink_.work_item().triangles_in += meshlet.triangle_count;
+    sink_.bins().triangles_in += meshlet.triangle_count;
 
-    // What has to leave the fast path: triangles that reach through the world plane or bend too much.
+    // Triangles that reach through the world plane or bend too much leave the fast path.
     bool through_plane = false, bends = false;
     if constexpr (Program::kWarped) {
       through_plane = !program_.meshlet_inside(meshlet);
@@ -85,7 +85,7 @@ class FrontEnd {
     }
 
     const bool all_fast = needs_clip == 0 && !through_plane && !bends;
-    // Corners are looked up in whole tables; the geometry ends with its last meshlet's vertices.
+    // Corners are read from tables of full length; the geometry ends with its last meshlet's vertices.
     alignas(64) float world[3][kMeshletVertices];
     if (through_plane || bends)
       for (int i = 0; i < meshlet.vertex_count; i += 16) {

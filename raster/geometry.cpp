@@ -10,8 +10,8 @@ namespace {
 
 std::size_t round_up_16(std::size_t n) { return (n + 15) & ~std::size_t{15}; }
 
-// Greedy cut of a triangle list into meshlets, in file order. A vertex's slot holds the number of the meshlet that used it
-// last and its place there, so that starting a meshlet clears nothing.
+// Greedy cut of a triangle list into meshlets, in file order. A vertex's slot holds the number of the meshlet that used
+// it last and its place there, so that no slot is cleared when a meshlet begins.
 class MeshletCutter {
  public:
   explicit MeshletCutter(std::uint32_t vertex_count) : slots_(vertex_count, 0) {}
@@ -62,7 +62,7 @@ class MeshletCutter {
   std::uint32_t epoch_ = 0;
 };
 
-constexpr Vec4f kNoTangent{1, 0, 0, 1};  // of vertices that no normal map is read at
+constexpr Vec4f kNoTangent{1, 0, 0, 1};  // of vertices without a normal map
 
 void append_vertex(Geometry& g, const MeshView& mesh, std::uint32_t v, bool with_colors) {
   const Vec3f p = mesh.positions_world[v];
@@ -181,7 +181,7 @@ void append_mesh(Geometry& g, const MeshView& mesh) {
       g.triangles.push_back(
           {{meshlet.first_vertex + l[0], meshlet.first_vertex + l[1], meshlet.first_vertex + l[2]}, mesh.material});
     }
-    // What is not drawn keeps ids and vertices, but has no meshlet that a stage could see.
+    // A drawable that is not drawn has ids and vertices, but no meshlet, so no stage draws it.
     if (mesh.drawn) append_meshlet(g, mesh, local, meshlet);
     first += static_cast<std::size_t>(triangles);
   }

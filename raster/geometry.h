@@ -1,4 +1,4 @@
-// Geometry as the rasterizer takes it: world-space triangles in submission order, cut into meshlets.
+// Geometry: world-space triangles in submission order, cut into meshlets.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ inline constexpr int kMeshletVertices = 64;
 inline constexpr int kMeshletTriangles = 128;
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;
 
-// What the pixel stages read of a vertex: half a cache line.
+// A vertex for the pixel stages: half a cache line.
 struct VertexRecord {
   Vec3f position_world;
   Vec3f normal_world;  // unit
@@ -52,14 +52,14 @@ struct Geometry {
   // degenerate).
   std::vector<std::uint8_t> corner0, corner1, corner2;
 
-  // By global triangle id: where the pixel stages find it.
+  // By global triangle id, for the pixel stages.
   struct TriangleRecord {
     std::uint32_t vertex[3];  // into vertices
     std::uint32_t material;
   };
   std::vector<TriangleRecord> triangles;
 
-  std::vector<Meshlet> meshlets;        // in submission order, drawn drawables only
+  std::vector<Meshlet> meshlets;    // in submission order, drawn drawables only
   std::vector<Drawable> drawables;  // in submission order
 };
 

@@ -1,4 +1,4 @@
-// How much a mesh takes once meshleted, so that a builder can reserve exactly; how far a meshlet reaches
+// The size of a mesh once it is cut into meshlets, so that a builder can reserve exactly, and the extent of a meshlet
 // (raster/geometry.cpp).
 #pragma once
 

@@ -1,4 +1,4 @@
-// How a pass's meshlets are dealt out to threads.
+// The division of a pass's meshlets into work items.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,15 @@
 
 namespace shoal {
 
-// Bins of one pass: one work_item a run of meshlets.
+// Bins of one pass: one work item for each run of meshlets.
 struct PassBins {
   std::vector<WorkItemBins> work_items;
   std::uint32_t meshlets_per_work_item = 1;
   std::uint32_t meshlet_count = 0;
 };
-// Items of about equal work, enough of them for any number of threads; results do not depend on their size.
+
+// Divides meshlets into work items of about equal work, enough of them for any number of threads. Results do not depend
+// on the size of a work item.
 PassBins make_bins(std::size_t meshlet_count);
 
 }  // namespace shoal

@@ -1,4 +1,4 @@
-// A ray against one triangle's plane, and how the hit moves from pixel to pixel.
+// A ray against the plane of one triangle, and the change of the hit from pixel to pixel.
 #pragma once
 
 #include "core/ray.h"
@@ -11,7 +11,7 @@ template <class F>
 struct TriangleHit {
   F t;              // hit = origin + direction t, in units of the direction's length; negative behind the origin
   F u, v;           // hit = p0 + e1 u + e2 v; not clamped to the triangle
-  MaskOf<F> valid;  // the ray is not parallel to the plane (then t, u, v are 0), and t, u, v are finite
+  MaskOf<F> valid;  // the ray is not parallel to the plane, and t, u, v are finite; else they are 0
 };
 
 // Derivatives of TriangleHit's u and v by pixel.
@@ -20,7 +20,7 @@ struct TriangleHitDerivatives {
   F u_dx, u_dy, v_dx, v_dy;
 };
 
-// Of pixel_ray's rays: exact, the same at every pixel.
+// The differential of pixel_ray's rays: exact, and the same at every pixel.
 template <class F>
 SHOAL_INLINE RayDifferential<F> pixel_ray_differential(const View& view) {
   const Vec3<F> zero = {F(0.0f), F(0.0f), F(0.0f)};
@@ -33,7 +33,7 @@ SHOAL_INLINE RayDifferential<F> pixel_ray_differential(const View& view) {
 //
 //   ray      world, direction of any length
 //   p0       first corner, world;  e1, e2  the other corners less p0
-// Returns the hit; see TriangleHit for what is not valid.
+// Returns the hit; TriangleHit::valid is false where the ray is parallel to the plane.
 // Source: Moeller and Trumbore (1997), without culling or tests of u, v.
 // Error: of the point p0 + e1 u + e2 v, of e1 u and of e2 v: 3e-7 x (distance of p0 from the ray's origin + that of the
 //        origin from the world's + |e1| + |e2|) over (cosine between ray and normal x sine of the corner at p0), for

@@ -1,8 +1,7 @@
-// Resolve: from visible ids to what the pixel program reads, once for each visible pixel.
+// Resolve: from visible ids to the attributes that the pixel program reads, once for each visible pixel.
 //
-// A pixel's point is where its ray meets the plane of its triangle, from the triangle's own corners: one canonical
-// expression that neither clipping nor subdivision nor snapping enters. The same function serves view rays, rays
-// refracted at water and mirrored ones.
+// A pixel's point is where its ray meets the plane of its triangle, computed from the triangle's own corners: clipping,
+// subdivision and snapping have no influence on it. The same function serves view rays, refracted and reflected rays.
 //
 // Cost   about 60 cycles a distinct triangle of a 4 x 4 block and 250 a block (docs/PERFORMANCE.md).
 #pragma once
@@ -16,11 +15,11 @@
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-// Sixteen pixels of one block, interpolated; lanes that were not asked for hold zeros or finite leftovers.
+// Interpolated attributes of sixteen pixels; lanes that are not active hold zeros or finite leftovers.
 template <class F>
 struct PixelAttributes {
   Vec3<F> position_world;
-  Vec3<F> normal_world;  // unit, turned to the viewer where the triangle shows its back
+  Vec3<F> normal_world;  // unit, turned to the viewer where its back faces the viewer
   Vec3<F> facet_world;   // the triangle's own normal, by its winding, of any length
   F t;                   // of the hit along the ray, in its direction's lengths
   Vec2<F> uv, duv_dx, duv_dy;
@@ -32,7 +31,7 @@ struct PixelAttributes {
   F handedness;           // the bitangent is cross(normal, tangent) times this
 };
 
-// Calls body(lane, lanes) for each distinct value among the active lanes, in the order of their first lane.
+// Calls body(value, lanes) for each distinct value among the active lanes, in the order of their first lane.
 template <class Body>
 SHOAL_INLINE void for_each_distinct(WideI value, WideM active, Body body) {
   std::uint32_t left = to_bits(active);
@@ -46,12 +45,13 @@ SHOAL_INLINE void for_each_distinct(WideI value, WideM active, Body body) {
   }
 }
 
-// The value of the first active lane; at least one is.
+// The value of the first active lane; at least one lane is active.
 SHOAL_INLINE std::int32_t first_value(WideI value, WideM active) {
   return extract(value, __builtin_ctz(to_bits(active)));
 }
 
-// Where rays meet the planes of triangles, in their directions' lengths; -1 where they do not.
+// Distances at which rays meet the planes of triangles, in their directions' lengths; -1 where they do not meet them
+// and in the other lanes.
 __attribute__((noinline)) inline WideF triangle_distance(const GeometryView& g, const Ray<WideF>& ray, WideI id,
                                                          WideM lanes) {
   WideF t(-1.0f);
@@ -66,7 +66,7 @@ __attribute__((noinline)) inline WideF triangle_distance(const GeometryView& g, 
   return t;
 }
 
-// The corners of the triangle of every lane. Not their differences: those are cheaper once for all lanes than once for
+// The corners of the triangle of every lane. Their differences are cheaper to compute once for all lanes than once for
 // each triangle.
 struct TriangleLanes {
   Vec3<WideF> p0, p1, p2;
@@ -100,14 +100,14 @@ SHOAL_INLINE void merge_triangle(TriangleLanes& to, const TriangleLanes& t, Wide
   to.material = select(lanes, t.material, to.material);
 }
 
-// Barycentrics brought into the triangle: coverage is decided on the pixel grid and may exceed the triangle by 1/512 px
+// Clamps barycentrics to the triangle: coverage is decided on the pixel grid and may exceed the triangle by 1/512 px
 // (and by the broad phase's quarter of a pixel).
 SHOAL_INLINE void clamp_to_triangle(WideF& u, WideF& v) {
   u = clamp(u, WideF(0.0f), WideF(1.0f));
   v = clamp(v, WideF(0.0f), WideF(1.0f) - u);
 }
 
-// COLOR_0. On its own: with the other corners it would be more than the registers hold.
+// COLOR_0. A function of its own, because together with the other attributes it would exceed the registers.
 __attribute__((noinline)) inline void resolve_color(const GeometryView& g, WideI id, WideM active, WideF u, WideF v,
                                                     PixelAttributes<WideF>& out) {
   const WideF zero(0.0f);
@@ -125,7 +125,7 @@ __attribute__((noinline)) inline void resolve_color(const GeometryView& g, WideI
   out.color = {mixed(c0.x, c1.x, c2.x), mixed(c0.y, c1.y, c2.y), mixed(c0.z, c1.z, c2.z), mixed(c0.w, c1.w, c2.w)};
 }
 
-// The second set of coordinates, interpolated as the first.
+// The second set of texture coordinates, interpolated as the first.
 __attribute__((noinline)) inline void resolve_uv1(const GeometryView& g, WideI id, WideM active, WideF u, WideF v,
                                                   const TriangleHitDerivatives<WideF>& d, PixelAttributes<WideF>& out) {
   Vec2<WideF> uv0 = broadcast<WideF>(Vec2f{0, 0}), duv1 = uv0, duv2 = uv0;
@@ -162,8 +162,10 @@ __attribute__((noinline)) inline void resolve_tangent(const GeometryView& g, Wid
   out.handedness = select(behind, -sign, sign);
 }
 
+// Interpolates the attributes of the points where rays meet their triangles.
 //   ray           one a lane, world; its differential: by pixel
-//   id            triangle ids; active: which of them are
+//   id            of the active lanes: triangles
+//   active        at least one lane
 // Error  position: as intersect_triangle (raster/ray_triangle.h), then within the triangle.
 __attribute__((noinline)) inline void resolve_attributes(const GeometryView& g, const Ray<WideF>& ray,
                                                          const RayDifferential<WideF>& differential, WideI id,
@@ -181,7 +183,7 @@ __attribute__((noinline)) inline void resolve_attributes(const GeometryView& g, 
   const WideF w = (WideF(1.0f) - u) - v;
   out.t = hit.t;
   out.position_world = t.p0 + e1 * u + e2 * v;
-  // Seen from behind (double-sided materials), the normal turns to the viewer.
+  // Where the triangle's back faces the viewer (double-sided materials), the normal is turned to the viewer.
   const Vec3<WideF> normal = normalize(t.n0 * w + t.n1 * u + t.n2 * v);
   out.facet_world = cross(e1, e2);
   const WideM behind = dot(out.facet_world, ray.direction_world) > WideF(0.0f);

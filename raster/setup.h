@@ -11,19 +11,19 @@
 
 namespace shoal {
 
-// Half the guard band's span, about the frame's centre.
+// Half the width of the guard band, which is centred on the frame.
 inline constexpr float kGuardPx = 16384.0f;
 
-// What a pass wants of its triangles.
+// Settings of one pass over the geometry.
 struct PassSettings {
   int width_px = 0, height_px = 0;
   Vec2f centre_px{0, 0};  // added to x / w and y / w
   BinGrid grid;
-  // Where the pass may draw, in pixels, inclusive: the frame, or the refracted region's bounds.
+  // Bounds of the pixels that the pass may draw, inclusive: the frame, or the refracted region's bounds.
   int x_min = 0, y_min = 0, x_max = -1, y_max = -1;
   const std::uint8_t* tile_active = nullptr;  // [tiles] 0: nothing is binned there; null: all are active
-  bool flip_facing = false;                   // a mirrored pass sees every triangle from behind
-  bool skip_blended = false;                  // meshlets of blended materials are left to a pass of their own
+  bool flip_facing = false;                   // of a planar reflection pass, which reverses every winding
+  bool skip_blended = false;                  // meshlets of blended materials have a pass of their own
 };
 
 }  // namespace shoal
@@ -36,14 +36,14 @@ struct SnappedLanes {
   WideF depth;
 };
 
-// Inside of near plane and guard band, and finite: such a vertex needs no clipping. False for NaN.
+// Whether a vertex is finite and inside of near plane and guard band, and so needs no clipping. False for NaN.
 SHOAL_INLINE WideM inside_guard(const ClipVertex<WideF>& v) {
   const WideF limit = v.w * WideF(kGuardPx);
   return (v.w > WideF(0.0f)) & (v.z <= v.w) & (abs(v.x) <= limit) & (abs(v.y) <= limit);
 }
 
-// The one snapping routine: nearest, ties to even. Values out of the guard band (lanes that nobody uses, rounding after
-// clipping) are clamped to it, NaN becomes its edge.
+// The one snapping routine: nearest, ties to even. Values out of the guard band (unused lanes, rounding after clipping)
+// are clamped to it; NaN becomes its edge.
 SHOAL_INLINE SnappedLanes snap(const ClipVertex<WideF>& v, Vec2f centre_px) {
   const WideF rw = WideF(1.0f) / v.w;
   const WideF guard(kGuardPx);
@@ -52,10 +52,10 @@ SHOAL_INLINE SnappedLanes snap(const ClipVertex<WideF>& v, Vec2f centre_px) {
   return {to_int_nearest(x * WideF(float(kSubpixel))), to_int_nearest(y * WideF(float(kSubpixel))), v.z * rw};
 }
 
-// Triangles waiting for their packet to fill.
+// Culls and bins triangles; they wait here until their packet is full.
 class TriangleSink {
  public:
-  SHOAL_INLINE TriangleSink(const PassSettings& pass, WorkItemBins& work_item) : pass_(pass), work_item_(work_item) {}
+  SHOAL_INLINE TriangleSink(const PassSettings& pass, WorkItemBins& bins) : pass_(pass), bins_(bins) {}
 
   // Sixteen triangles by corner. Culls back faces (unless two_sided), zero areas and triangles that hold no sample.
   SHOAL_INLINE void add(SnappedLanes a, SnappedLanes b, SnappedLanes c, WideI id, WideM active, bool two_sided,
@@ -82,8 +82,8 @@ class TriangleSink {
     // Twice the area, exact in 32 bits for small triangles. The screen's y points down, so a counter-clockwise triangle
     // has (b - a) x (c - a) < 0 there.
     const WideI area = (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y);
-    WideM keep = active & small & (two_sided ? area != WideI(0) : area > WideI(0));
-    const std::uint32_t bits = to_bits(keep);
+    const WideM drawn = active & small & (two_sided ? area != WideI(0) : area > WideI(0));
+    const std::uint32_t bits = to_bits(drawn);
     if (bits == 0) return;
     if (two_sided) {
       const WideM back = area < WideI(0);
@@ -93,25 +93,25 @@ class TriangleSink {
     }
     if (alpha_tested != staged_alpha_tested_ && staged_ > 0) flush();
     staged_alpha_tested_ = alpha_tested;
-    stage(stage_.x[0], a.x, keep), stage(stage_.y[0], a.y, keep), stage(stage_.depth[0], a.depth, keep);
-    stage(stage_.x[1], b.x, keep), stage(stage_.y[1], b.y, keep), stage(stage_.depth[1], b.depth, keep);
-    stage(stage_.x[2], c.x, keep), stage(stage_.y[2], c.y, keep), stage(stage_.depth[2], c.depth, keep);
-    stage(stage_.id, id, keep);
+    stage(stage_.x[0], a.x, drawn), stage(stage_.y[0], a.y, drawn), stage(stage_.depth[0], a.depth, drawn);
+    stage(stage_.x[1], b.x, drawn), stage(stage_.y[1], b.y, drawn), stage(stage_.depth[1], b.depth, drawn);
+    stage(stage_.x[2], c.x, drawn), stage(stage_.y[2], c.y, drawn), stage(stage_.depth[2], c.depth, drawn);
+    stage(stage_.id, id, drawn);
     const int shift = pass_.grid.tile_shift;
-    stage(stage_.tile_x0, x0 >> shift, keep), stage(stage_.tile_x1, x1 >> shift, keep);
-    stage(stage_.tile_y0, y0 >> shift, keep), stage(stage_.tile_y1, y1 >> shift, keep);
+    stage(stage_.tile_x0, x0 >> shift, drawn), stage(stage_.tile_x1, x1 >> shift, drawn);
+    stage(stage_.tile_y0, y0 >> shift, drawn), stage(stage_.tile_y1, y1 >> shift, drawn);
     staged_ += __builtin_popcount(bits);
     if (staged_ >= 16) flush();
   }
 
-  // Call once at the end of an work_item.
+  // Must be called once at the end of a work item.
   void finish() {
     while (staged_ > 0) flush();
-    work_item_.sort_by_tile(pass_.grid);
+    bins_.sort_by_tile(pass_.grid);
   }
 
   const PassSettings& pass() const { return pass_; }
-  WorkItemBins& work_item() { return work_item_; }
+  WorkItemBins& bins() { return bins_; }
 
  private:
   // Room for a full packet and the sixteen that overflow it.
@@ -121,13 +121,13 @@ class TriangleSink {
     std::int32_t id[32], tile_x0[32], tile_x1[32], tile_y0[32], tile_y1[32];
   };
 
-  SHOAL_INLINE void stage(std::int32_t* to, WideI v, WideM keep) { compress(v, keep).store(to + staged_); }
-  SHOAL_INLINE void stage(float* to, WideF v, WideM keep) { compress(v, keep).store(to + staged_); }
+  SHOAL_INLINE void stage(std::int32_t* to, WideI v, WideM drawn) { compress(v, drawn).store(to + staged_); }
+  SHOAL_INLINE void stage(float* to, WideF v, WideM drawn) { compress(v, drawn).store(to + staged_); }
 
   __attribute__((noinline)) void flush() {
     const int count = staged_ < 16 ? staged_ : 16;
-    const std::uint32_t index = static_cast<std::uint32_t>(work_item_.packets.size());
-    TrianglePacket& p = work_item_.packets.push();
+    const std::uint32_t index = static_cast<std::uint32_t>(bins_.packets.size());
+    TrianglePacket& p = bins_.packets.push();
     for (int k = 0; k < 3; ++k) {
       move16(p.x[k], stage_.x[k]), move16(p.y[k], stage_.y[k]);
       WideF::load(stage_.depth[k]).store(p.depth[k]);
@@ -143,8 +143,8 @@ class TriangleSink {
     const WideI big(0x7FFFFFFF);
     const int x0 = reduce_min(select(valid, tx0, big)), y0 = reduce_min(select(valid, ty0, big));
     const int x1 = reduce_max(select(valid, tx1, WideI(-1))), y1 = reduce_max(select(valid, ty1, WideI(-1)));
-    const std::uint32_t kind = static_cast<std::uint32_t>(staged_alpha_tested_ ? BinKind::kSmallAlphaTested : BinKind::kSmall)
-                               << 30;
+    const std::uint32_t kind =
+        static_cast<std::uint32_t>(staged_alpha_tested_ ? BinKind::kSmallAlphaTested : BinKind::kSmall) << 30;
     if (x0 == x1 && y0 == y1) {
       add_entry(x0, y0, kind | index, filled);
     } else if ((x1 - x0 + 1) * (y1 - y0 + 1) <= 32) {
@@ -155,12 +155,12 @@ class TriangleSink {
           if (lanes != 0) add_entry(x, y, kind | index, lanes);
         }
     } else {
-      // Triangles from far apart share the packet: tile by tile of each.
+      // The packet's triangles are far apart: enter the tiles of each.
       for (int lane = 0; lane < count; ++lane)
         for (int y = extract(ty0, lane); y <= extract(ty1, lane); ++y)
           for (int x = extract(tx0, lane); x <= extract(tx1, lane); ++x) add_entry(x, y, kind | index, 1u << lane);
     }
-    work_item_.triangles_out += static_cast<std::uint64_t>(count);
+    bins_.triangles_out += static_cast<std::uint64_t>(count);
     staged_ -= count;
   }
 
@@ -173,7 +173,7 @@ class TriangleSink {
   SHOAL_INLINE void add_entry(int tile_x, int tile_y, std::uint32_t kind_and_index, std::uint32_t lanes) {
     const std::uint32_t tile = static_cast<std::uint32_t>(tile_y * pass_.grid.tiles_x + tile_x);
     if (pass_.tile_active != nullptr && pass_.tile_active[tile] == 0) return;
-    work_item_.entries.push() = {tile, kind_and_index, lanes};
+    bins_.entries.push() = {tile, kind_and_index, lanes};
   }
 
   __attribute__((noinline)) void add_large(SnappedLanes a, SnappedLanes b, SnappedLanes c, WideI id,
@@ -195,10 +195,11 @@ class TriangleSink {
         t.x[1] = t.x[2], t.y[1] = t.y[2], t.depth[1] = t.depth[2];
         t.x[2] = x, t.y[2] = y, t.depth[2] = depth;
       }
-      const std::uint32_t kind = static_cast<std::uint32_t>(alpha_tested ? BinKind::kLargeAlphaTested : BinKind::kLarge) << 30;
-      const std::uint32_t index = static_cast<std::uint32_t>(work_item_.large.size());
-      work_item_.large.push() = t;
-      ++work_item_.triangles_out;
+      const std::uint32_t kind = static_cast<std::uint32_t>(alpha_tested ? BinKind::kLargeAlphaTested : BinKind::kLarge)
+                                 << 30;
+      const std::uint32_t index = static_cast<std::uint32_t>(bins_.large.size());
+      bins_.large.push() = t;
+      ++bins_.triangles_out;
       const int shift = pass_.grid.tile_shift;
       const int tx0 = extract(x0, lane) >> shift, tx1 = extract(x1, lane) >> shift;
       const int ty0 = extract(y0, lane) >> shift, ty1 = extract(y1, lane) >> shift;
@@ -224,7 +225,7 @@ class TriangleSink {
   }
 
   const PassSettings& pass_;
-  WorkItemBins& work_item_;
+  WorkItemBins& bins_;
   Stage stage_;
   int staged_ = 0;
   bool staged_alpha_tested_ = false;

@@ -1,14 +1,15 @@
 // The slow path of the front end: triangles that are clipped by a world plane, bend under the vertex program, or reach
 // through near plane or guard band. Sixteen at a time, breadth first.
 //
-// A warped program (kWarped) bends straight edges, so its triangles are split until they are straight enough. It has
+// A warped program (kWarped) bends straight edges, so its triangles are split until their edges are straight enough. It
+// has (raster/plane_clip.h has the part about the plane)
 //
-//   Plane clip_plane() const;                                   // kept: inside; before the vertex program
-//   WideM inside(Vec3<WideF> p) const;                          // the same test, sixteen points
+//   Plane clip_plane() const;                                   // its inside is drawn; before the vertex program
+//   WideM inside(Vec3<WideF> p) const;                          // the same test of sixteen points
 //   WideM edge_bends(Vec3<WideF> a, Vec3<WideF> b) const;       // symmetric in a and b, bit for bit
 //   bool meshlet_inside(const Meshlet&) const;                      // whole meshlet inside of the plane
 //   bool meshlet_bends(const Meshlet&) const;                       // false: no edge of it bends (a bound)
-//   bool box_outside_view(Vec3f lo, Vec3f hi) const;            // true only if nothing in the world box can show
+//   bool box_outside_view(Vec3f lo, Vec3f hi) const;            // true only if no pixel can show any of a world box
 //
 // An edge's split is decided from its end points alone and the new vertex is their midpoint (a + b) / 2, the same bits
 // from both sides, so neighbours stay watertight.
@@ -54,7 +55,7 @@ class Tessellator {
     if (queue_.size() >= kBatch) flush();
   }
 
-  // Draws everything that waits.
+  // Draws all waiting triangles.
   __attribute__((noinline)) void flush() {
     while (queue_.size() > 0) {
       const std::size_t count = queue_.size() < 16 ? queue_.size() : 16;
@@ -95,7 +96,7 @@ class Tessellator {
         }
         if ((batch[l].flags & kLevelMask) >= kMaxSubdivisionLevel) {
           split &= ~(1u << l);
-          ++sink_.work_item().subdivision_capped;
+          ++sink_.bins().subdivision_capped;
           continue;
         }
         subdivide(batch[l], ((split_ab >> l) & 1u) | (((split_bc >> l) & 1u) << 1) | (((split_ca >> l) & 1u) << 2));
@@ -106,7 +107,7 @@ class Tessellator {
     draw_lanes(batch, a, b, c, active);
   }
 
-  // A triangle that bends and cannot show is not worth splitting (behind the eye it would never become straight).
+  // A triangle that bends and that no pixel can show is dropped: behind the eye it would never become straight.
   SHOAL_INLINE bool out_of_view(const WorldTriangle& t) const {
     const Vec3f lo = min(min(t.p[0], t.p[1]), t.p[2]), hi = max(max(t.p[0], t.p[1]), t.p[2]);
     return program_.box_outside_view(lo, hi);
@@ -156,9 +157,9 @@ class Tessellator {
     const WideM two_sided = (flags & WideI(kFlagTwoSided)) != WideI(0),
                 alpha_tested = (flags & WideI(kFlagAlphaTested)) != WideI(0);
     for (int kind = 0; kind < 4; ++kind) {
-      const bool two = (kind & 1) != 0, mask = (kind & 2) != 0;
-      const WideM lanes = active & (two ? two_sided : !two_sided) & (mask ? alpha_tested : !alpha_tested);
-      if (any(lanes)) sink_.add(a, b, c, id, lanes, two, mask);
+      const bool two = (kind & 1) != 0, tested = (kind & 2) != 0;
+      const WideM lanes = active & (two ? two_sided : !two_sided) & (tested ? alpha_tested : !alpha_tested);
+      if (any(lanes)) sink_.add(a, b, c, id, lanes, two, tested);
     }
   }
 

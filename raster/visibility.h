@@ -1,4 +1,4 @@
-// Visibility: which triangle each sample of a tile shows, and at what depth.
+// Visibility: the nearest triangle at each sample of a tile, and its depth.
 //
 // Packets of small triangles have their edges set up sixteen triangles at a time and then fill 4 x 4 blocks; large
 // triangles descend 64 -> 16 -> 4 with trivial reject and accept. Coverage is exact integer arithmetic at pixel centres
@@ -33,27 +33,27 @@ struct VisibilityBuffer {
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-// Depth plane of a triangle. depth(X, Y) = d0 + (X - x0) dx + (Y - y0) dy, clamped to the corners' range, so that
-// neither slivers nor extrapolation leave it.
+// Depth plane of a triangle: depth(X, Y) = d0 + (X - x0) dx + (Y - y0) dy, clamped to the range of the corners' depths,
+// which slivers and extrapolation could leave.
 struct DepthPlane {
   std::int32_t x0, y0;
   float d0, dx, dy, lo, hi;
 };
 
-// Alpha test that keeps every pixel: for opaque triangles.
+// The alpha test of opaque triangles: keeps every pixel.
 struct KeepAll {
   static constexpr bool kTests = false;
   SHOAL_INLINE WideM operator()(std::int32_t, int, int, WideM cover) const { return cover; }
 };
 
-// An "alpha test" that takes the covered blocks itself: nothing is tested or written here (raster/fragments.h).
+// An "alpha test" that receives the covered blocks instead: nothing is tested or written here (raster/fragments.h).
 template <class T>
 concept TakesFragments = requires(const T& t, std::int32_t id, int block, WideM cover, WideF depth) {
   t.fragment(id, block, block, cover, depth);
 };
 
 // Draws the binned triangles of one tile.
-//   AlphaTest  WideM operator()(id, block_x_px, block_y_px, cover): the covered pixels that the material keeps
+//   AlphaTest  WideM operator()(id, x_px, y_px, cover) of the block at a pixel: the covered pixels that are drawn
 template <class AlphaTest>
 class TileRaster {
  public:
@@ -61,7 +61,7 @@ class TileRaster {
                           int tile_y1)
       : out_(out), alpha_(alpha), x0_(tile_x0), y0_(tile_y0), x1_(tile_x1), y1_(tile_y1) {}
 
-  // The tile's padded blocks, emptied.
+  // Empties the tile's padded blocks.
   void clear() {
     const int bx1 = (x1_ + 3) >> 2, by1 = (y1_ + 3) >> 2;
     for (int by = y0_ >> 2; by < by1; ++by)
@@ -75,23 +75,23 @@ class TileRaster {
       for (float& f : farthest_[r]) f = 0.0f;
   }
 
-  void draw(const WorkItemBins& work_item, std::uint32_t tile) {
-    const std::uint32_t end = work_item.tile_first[tile + 1];
-    for (std::uint32_t i = work_item.tile_first[tile]; i < end; ++i) {
-      const BinEntry& e = work_item.sorted[i];
+  void draw(const WorkItemBins& bins, std::uint32_t tile) {
+    const std::uint32_t end = bins.tile_first[tile + 1];
+    for (std::uint32_t i = bins.tile_first[tile]; i < end; ++i) {
+      const BinEntry& e = bins.sorted[i];
       const std::uint32_t index = e.kind_and_index & kBinIndexMask;
       switch (static_cast<BinKind>(e.kind_and_index >> 30)) {
         case BinKind::kSmall:
-          draw_packet<false>(work_item.packets[index], e.lanes);
+          draw_packet<false>(bins.packets[index], e.lanes);
           break;
         case BinKind::kSmallAlphaTested:
-          draw_packet<true>(work_item.packets[index], e.lanes);
+          draw_packet<true>(bins.packets[index], e.lanes);
           break;
         case BinKind::kLarge:
-          draw_large<false>(work_item.large[index]);
+          draw_large<false>(bins.large[index]);
           break;
         case BinKind::kLargeAlphaTested:
-          draw_large<true>(work_item.large[index]);
+          draw_large<true>(bins.large[index]);
           break;
       }
     }
@@ -309,8 +309,8 @@ class TileRaster {
     return {to_bits(any_outside >= WideI(0)), to_bits(any_partly >= WideI(0))};
   }
 
-  // As write_block, with early rejection: `farthest` bounds the block's depths from below (it may be stale: depths only
-  // grow).
+  // As write_block, with early rejection: `farthest` is a lower bound of the block's depths, which may be out of date,
+  // for depths only grow.
   template <bool kAlphaTested>
   SHOAL_INLINE void write_block_large(int block_col, int block_row, WideM cover, const DepthPlane& plane,
                                       std::int32_t id, float& farthest) {

@@ -1,6 +1,6 @@
 // Light on a surface: glTF's metallic-roughness material under directional, point and spot lights, and a hemisphere of
 // ambient light or an environment.
-// One function, for the rasterizer and the ray tracer alike.
+// One function serves the rasterizer and the ray tracer.
 #pragma once
 
 #include "core/vec_lanes.h"
@@ -9,13 +9,14 @@
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-// Smoother surfaces are lit as if this rough: a mirror under a point-like sun would be one infinite pixel.
+// Roughness is at least this in the light of directional, point and spot lights: a perfect mirror would reflect such a
+// light as one infinite pixel.
 inline constexpr float kMinRoughness = 0.045f;
-// The eye never sees a surface from behind its own plane, but interpolated normals say so: they count as this grazing.
+// An interpolated normal can face away from the viewer where the triangle's plane does not: the cosine is then this.
 inline constexpr float kMinViewCosine = 1e-3f;
 inline constexpr float kInversePi = 0.318309886f;
 
-// The part of a shaded point that no light changes.
+// The part of shading that does not depend on the light.
 template <class F>
 struct Reflectance {
   Vec3<F> diffuse;  // albedo of the Lambert part
@@ -23,7 +24,7 @@ struct Reflectance {
   F alpha2;         // fourth power of the roughness
   Vec3<F> normal, view;
   F n_dot_v;         // at least kMinViewCosine
-  F n_dot_v_signed;  // as it is
+  F n_dot_v_signed;  // not clamped
 };
 
 template <class F>
@@ -117,11 +118,10 @@ SHOAL_INLINE Vec3<F> reflect_ambient(const SurfaceSample<F>& s, const Reflectanc
   return diffuse + specular * (around - diffuse);
 }
 
-// A light nearer than this is taken to be this far away (its square in m^2): at the light itself there is no end to
-// the falloff.
+// Lower bound of the squared distance to a light, in m^2: at the light itself the falloff would be infinite.
 inline constexpr float kMinLightDistance2 = 1e-6f;
 
-// What a point or spot light sends to a point, for a light of one candela.
+// Irradiance of a point or spot light of one candela at a point.
 //   position_world  of the point, m
 //   to_light        unit, from the point to the light; zero at the light itself
 // Returns irradiance on a surface facing the light: 0 beyond its range and outside of its cone.
@@ -139,7 +139,7 @@ SHOAL_INLINE F punctual_falloff(const PunctualLight& light, Vec3<F> position_wor
   return window * (cone * cone) / max(distance2, F(kMinLightDistance2));
 }
 
-// A sun that nothing is in the way of.
+// A sun without shadows.
 struct OpenSun {
   template <class F>
   SHOAL_INLINE Vec3<F> reach(Vec3<F> irradiance, MaskOf<F>) const {
@@ -148,11 +148,12 @@ struct OpenSun {
 };
 
 // Radiance of surface points towards the viewer.
-//   s               what is seen
-//   unlit           lanes that are their base colour
+//   s               the surface points
+//   unlit           lanes whose radiance is their base colour
 //   view_direction  unit, from the point towards the eye
-//   light_scale     transmittance of the way from the light to the point (1 in air), for lights and ambient alike
-//   sun             what reaches the points of the first directional light: reach(irradiance, lanes that face it)
+//   light_scale     transmittance of the path from the lights to the point (1 in air); of ambient light too
+//   sun             reach(irradiance, lanes that face it) returns the part of the first directional light's irradiance
+//                   that reaches the points
 // Returns linear radiance; the unlit lanes' is exactly their base colour.
 // Source: glTF 2.0, appendix B; KHR_materials_unlit. Error: see the parts.
 template <class F, class Sun = OpenSun>

@@ -1,4 +1,4 @@
-// How sunlight goes on under water, as plain data that knows no body of water (scene/light_medium.h makes it).
+// Sunlight under water as plain data, apart from the body of water itself (scene/light_medium.h makes it from one).
 #pragma once
 
 #include <cstdint>

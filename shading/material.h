@@ -1,4 +1,4 @@
-// What a surface is made of, and what lights it: plain data that the pixel program reads.
+// Materials and lights: plain data that the pixel program reads.
 #pragma once
 
 #include <cstdint>
@@ -43,12 +43,12 @@ struct Material {
   float normal_scale = 1, occlusion_strength = 1;
   float ior = 1.5f;  // of a dielectric: 1.5 reflects 0.04 at normal incidence (KHR_materials_ior); 0: all of it
 
-  // Needs more than make_surface reads (shading/surface_maps.h).
+  // Whether apply_maps (shading/surface_maps.h) changes the surface.
   bool has_maps() const {
     return metallic_roughness.texture != kNoTexture || normal.texture != kNoTexture ||
            occlusion.texture != kNoTexture || emission.texture != kNoTexture || ior != 1.5f;
   }
-  // Of every texture: 1 to 16.
+  // Sets the anisotropy of every texture: 1 to 16.
   void set_anisotropy(int limit) {
     for (Sampler* s :
          {&base_color_sampler, &metallic_roughness.sampler, &normal.sampler, &occlusion.sampler, &emission.sampler})
@@ -61,7 +61,7 @@ struct Materials {
   std::vector<Texture> textures;
 };
 
-// What the rasterizer reads of each material.
+// The properties of each material that the rasterizer reads.
 std::vector<DrawState> draw_states(const std::vector<Material>& materials);
 
 struct DirectionalLight {
@@ -69,7 +69,7 @@ struct DirectionalLight {
   Vec3f irradiance{1, 1, 1};        // linear, on a surface facing it (lux in glTF's terms)
 };
 
-// A point or spot light: small, and seen from far enough to be a point.
+// A point or spot light: small beside its distance.
 struct PunctualLight {
   Vec3f position_world{0, 0, 0};
   Vec3f direction_world{0, -1, 0};  // unit, a spot's axis
@@ -79,7 +79,7 @@ struct PunctualLight {
   float cone_scale = 0, cone_offset = 1;
 };
 
-// What every ray sees that leaves the scene, and the ambient light that comes from it.
+// The radiance of every ray that leaves the scene, and the source of ambient light.
 struct Background {
   enum class Kind : std::uint8_t { kColor, kSky, kEnvironment } kind = Kind::kColor;
   Vec3f color{0, 0, 0};  // linear, kColor

@@ -90,7 +90,7 @@ SHOAL_INLINE IntOf<F> encode_srgb8(F linear) {
 
 // Writes a 4 x 4 block of codes (0 to 255) as RGB bytes.
 //   pixels     of the block's top left pixel; four rows of twelve bytes, row_bytes apart
-// Little-endian machines only, as all that Shoal knows are.
+// For little-endian machines: Shoal supports no others.
 SHOAL_INLINE void store_rgb8_block(std::uint8_t* pixels, std::size_t row_bytes, WideI r, WideI g, WideI b) {
   alignas(64) std::int32_t packed[16];
   (r | (g << 8) | (b << 16)).store(packed);

@@ -1,8 +1,8 @@
-// What a ray sees that leaves the scene: one colour, a clear-day sky, or a picture of the surroundings.
+// The radiance of rays that leave the scene: one colour, a clear-day sky, or a picture of the surroundings.
 //
 // The sky is a picture, not a model of scattering: a gradient from horizon to zenith that whitens towards the horizon,
-// where a calm water surface reflects the most of it, ground below, a sun disc and three widths of glow. It has no
-// powers but repeated squares, so that it costs a few cycles a pixel.
+// where calm water reflects the most of it, ground below, a sun disc and a glow of four widths. Its powers are repeated
+// squares, so that it costs a few cycles a pixel.
 #pragma once
 
 #include "core/vec_lanes.h"
@@ -40,8 +40,7 @@ SHOAL_INLINE F sun_disc(F chord2) {
 }
 }  // namespace sky_detail
 
-// The sky without its sun, the colour or the picture: what rough surfaces reflect (the sun reaches them as a light of
-// its own).
+// The background without the sun, as rough surfaces reflect it: the sun reaches them as a directional light.
 //   direction_world  unit, away from the scene; +y is up
 // Returns linear radiance, continuous in the direction.
 template <class F>
@@ -62,7 +61,7 @@ SHOAL_INLINE Vec3<F> background_gradient(const Background& background, Vec3<F> d
   return lerp(broadcast<F>(background.ground), clear, sky_detail::above_horizon(y));
 }
 
-// Everything: gradient, and the sun's disc and glow where there is a sun.
+// The whole background: the gradient, and the sun's disc and glow where there is a sun.
 //   direction_world  unit, away from the scene
 // Returns linear radiance, not negative where the background's colours are not.
 template <class F>

@@ -1,5 +1,5 @@
-// The sRGB transfer curve in double precision at compile time, and the two tables made from it: what an 8-bit texel is
-// in linear light, and where one 8-bit output code ends and the next begins. No libm: x^2.4 = x^2 * (x^2)^(1/5).
+// The sRGB transfer curve in double precision at compile time, and tables made from it: the linear light of each 8-bit
+// texel, and the limits between 8-bit output codes. No libm: x^2.4 = x^2 * (x^2)^(1/5).
 //
 // Source: IEC 61966-2-1:1999, section 5.2.
 #pragma once

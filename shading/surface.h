@@ -1,4 +1,4 @@
-// What a pixel program makes of a material and interpolated attributes: the content of the G-buffer.
+// Surface points, made from a material and interpolated attributes: the content of the G-buffer.
 #pragma once
 
 #include "core/vec_lanes.h"
@@ -16,19 +16,8 @@ struct SurfaceSample {
   F alpha;
   F metallic, roughness;  // 0 to 1
   Vec3<F> emissive;
-  F f0_dielectric = F(0.04f);  // reflectance at normal incidence of what is no metal
+  F f0_dielectric = F(0.04f);  // reflectance at normal incidence of the part that is not metal
   F occlusion = F(1.0f);       // share of ambient light that arrives
-};
-
-// The same, stored: sixteen pixels of a 4 x 4 block, row by row, a cache line a channel, without padding.
-struct alignas(64) GBufferBlock {
-  float position_world[3][16];
-  float normal_world[3][16];
-  float base_color[3][16];
-  float alpha[16];
-  float metallic[16], roughness[16];
-  float emissive[3][16];
-  float f0_dielectric[16], occlusion[16];
 };
 
 }  // namespace shoal
@@ -41,7 +30,7 @@ namespace shoal::inline SHOAL_ISA_NS {
 //   uv, duv_dx, duv_dy  the base colour's texture coordinates and their change over one pixel
 //   vertex_color      linear RGBA; 1 where the mesh has none
 //   view_direction    world, from the point towards the eye, any length
-//   active            lanes that are wanted; the others hold no surface
+//   active            lanes that are set; the others hold no surface
 // Source: glTF 2.0, 3.9 (materials): factors, texture and COLOR_0 multiply. Differs: a double-sided material's normal
 // is turned by the shading normal's side, not by the triangle's. The other textures: shading/surface_maps.h.
 template <class F>
@@ -79,44 +68,6 @@ SHOAL_INLINE F surface_alpha(const Material& material, const Texture* textures, 
   if (material.base_color_texture == kNoTexture) return alpha;
   const Texture& texture = textures[static_cast<std::size_t>(material.base_color_texture)];
   return alpha * sample<F>(texture, material.base_color_sampler, uv, duv_dx, duv_dy, active).w;
-}
-
-namespace surface_detail {
-SHOAL_INLINE void put(float (&to)[3][16], const Vec3<WideF>& v, WideM lanes) {
-  store_masked(to[0], v.x, lanes);
-  store_masked(to[1], v.y, lanes);
-  store_masked(to[2], v.z, lanes);
-}
-SHOAL_INLINE Vec3<WideF> get(const float (&from)[3][16]) {
-  return {WideF::load(from[0]), WideF::load(from[1]), WideF::load(from[2])};
-}
-}  // namespace surface_detail
-
-// Writes the lanes of one material into a block; the block's other lanes stay.
-SHOAL_INLINE void store_surface(GBufferBlock& block, const SurfaceSample<WideF>& s, WideM lanes) {
-  surface_detail::put(block.position_world, s.position_world, lanes);
-  surface_detail::put(block.normal_world, s.normal_world, lanes);
-  surface_detail::put(block.base_color, s.base_color, lanes);
-  store_masked(block.alpha, s.alpha, lanes);
-  store_masked(block.metallic, s.metallic, lanes);
-  store_masked(block.roughness, s.roughness, lanes);
-  surface_detail::put(block.emissive, s.emissive, lanes);
-  store_masked(block.f0_dielectric, s.f0_dielectric, lanes);
-  store_masked(block.occlusion, s.occlusion, lanes);
-}
-
-SHOAL_INLINE SurfaceSample<WideF> load_surface(const GBufferBlock& block) {
-  SurfaceSample<WideF> s;
-  s.position_world = surface_detail::get(block.position_world);
-  s.normal_world = surface_detail::get(block.normal_world);
-  s.base_color = surface_detail::get(block.base_color);
-  s.alpha = WideF::load(block.alpha);
-  s.metallic = WideF::load(block.metallic);
-  s.roughness = WideF::load(block.roughness);
-  s.emissive = surface_detail::get(block.emissive);
-  s.f0_dielectric = WideF::load(block.f0_dielectric);
-  s.occlusion = WideF::load(block.occlusion);
-  return s;
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

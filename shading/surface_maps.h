@@ -1,4 +1,4 @@
-// What a material's other textures do to a surface: metallic and roughness, normals, occlusion, glow.
+// A material's other textures on a surface: metallic and roughness, normals, occlusion, emission.
 #pragma once
 
 #include "raster/resolve.h"
@@ -7,7 +7,7 @@
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-// Reflectance of a dielectric at normal incidence, seen from air. 1.5 gives exactly the 0.04 of glTF's appendix B.
+// Reflectance of a dielectric in air at normal incidence. 1.5 gives exactly the 0.04 of glTF's appendix B.
 // Source: KHR_materials_ior: ((ior - 1) / (ior + 1))^2; an ior of 0 gives 1.
 SHOAL_INLINE float dielectric_f0(float ior) {
   if (ior == 1.5f) return 0.04f;
@@ -34,8 +34,9 @@ SHOAL_INLINE Vec3<F> mapped_normal(Vec3<F> normal, Vec3<F> tangent, F handedness
 }
 
 // Applies the maps of a material that has any.
-//   a       of the pixels; `s`: what make_surface made of them
-//   active  lanes that are wanted
+//   a       attributes of the pixels
+//   s       the surface that make_surface returned for them; changed
+//   active  lanes that are set; the others hold no surface
 // Source: glTF 2.0, 3.9.2 to 3.9.4; KHR_materials_ior.
 SHOAL_INLINE void apply_maps(const GeometryView& g, const Material& material, const Texture* textures,
                              const PixelAttributes<WideF>& a, Vec3<WideF> view_direction, WideM active,

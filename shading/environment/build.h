@@ -11,23 +11,23 @@ namespace shoal {
 
 class ThreadPool;
 
-// A picture of all directions: rows from +y down to -y, its centre column looks along +x, its right edge (which is its
-// left edge) along -x, and +z is a quarter of the width right of the centre. So do three.js, the Khronos Sample Viewer
-// and Blender have it.
+// A picture of all directions: rows from +y down to -y; its centre column is +x, its right edge (which is its left
+// edge) -x, and +z is a quarter of the width right of the centre. three.js, the Khronos Sample Viewer and Blender use
+// the same orientation.
 struct EquirectImage {
   int width = 0, height = 0;
   std::vector<float> rgb;  // width x height x 3, linear radiance, finite and not negative
 };
 
-// Raise with every change of what make_environment returns for the same picture: caches go by it.
+// Part of the key of caches: must be raised with every change of the result of make_environment for the same picture.
 inline constexpr std::uint32_t kEnvironmentVersion = 1;
 
 // Resamples the picture to octahedral maps, filters them by roughness, and integrates it for diffuse light.
 //   image  at least 1 x 1; rgb not negative and at most 1e9
-//   pool   the work is shared out on it
+//   pool   its threads share the work
 // Level 0 has a power of two of at least twice the picture's height in texels a side, 64 to kMaxEnvironmentSize. The
 // result depends on the picture alone: + - * / sqrt in a fixed order for any threads.
-// Source: level by level in the parts below.
+// Source: see the parts below.
 Environment make_environment(const EquirectImage& image, ThreadPool& pool);
 
 namespace environment_parts {
@@ -48,7 +48,7 @@ struct FloatMap {
     return (static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(size + 2) + static_cast<std::size_t>(x + 1)) * 3;
   }
 };
-// Fills the border with what lies across the edges.
+// Fills the border with the texels across the edges.
 void wrap_border(FloatMap& map);
 Vec3f sample_map(const FloatMap& map, Vec3f direction);
 
@@ -61,8 +61,8 @@ FloatMap halved(const FloatMap& map);
 // Source: Ramamoorthi and Hanrahan 2001, eq. 3 and 8. shading/environment/irradiance.cpp
 std::array<Vec3f, 9> irradiance_harmonics(const EquirectImage& image, ThreadPool& pool);
 
-// The environment seen by a GGX lobe, by importance sampling: Hammersley points, each looked up in the mip whose texel
-// has its solid angle.
+// The environment filtered by a GGX lobe, by importance sampling: Hammersley points, each sampled in the mip whose
+// texels have the point's solid angle.
 //   mips  level 0 and its halves, in order
 // Source: Karis 2013 (n = v = r); Krivanek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling".
 // shading/environment/filter.cpp

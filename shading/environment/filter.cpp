@@ -1,4 +1,4 @@
-// The environment as a GGX lobe sees it.
+// The environment filtered by GGX lobes.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@
 namespace shoal::environment_parts {
 namespace {
 
-// One light direction of the lobe round +z, and where it is looked up.
+// One light direction of the lobe round +z, and the mip that it is sampled in.
 struct LobeSample {
   Vec3f direction;
   float weight;  // its cosine
@@ -33,18 +33,18 @@ std::vector<LobeSample> lobe_samples(double roughness, int count, int map_size, 
   const double texels = static_cast<double>(map_size) * static_cast<double>(map_size);
   std::vector<LobeSample> samples;
   for (int i = 0; i < count; ++i) {
-    // The half vector by GGX's distribution times its cosine.
+    // The half vector is distributed by GGX times its cosine.
     const double u = radical_inverse(static_cast<std::uint32_t>(i)) + 0x1p-33;
     const double cosine2 = (1 - u) / (1 + (alpha2 - 1) * u);
     const double cosine = std::sqrt(cosine2), sine = std::sqrt(1 - cosine2);
     const CirclePoint turn = circle_point(2 * static_cast<std::uint64_t>(i) + 1, 2 * static_cast<std::uint64_t>(count));
     const double z = 2 * cosine2 - 1;
     if (!(z > 0)) continue;
-    // Its light's solid angle, 4 / (count D), in texels of level 0, 4 pi / texels; a mip more, so that neighbours
-    // overlap.
+    // The solid angle of the light direction, 4 / (count D), in texels of level 0, which have 4 pi / texels each; one
+    // mip more, so that neighbouring samples overlap.
     const double spread = 1 + (alpha2 - 1) * cosine2;
-    const double texels_seen = spread * spread / (alpha2 * static_cast<double>(count)) * texels;
-    const float level = 0.5f * det_log2(static_cast<float>(texels_seen)) + 1.0f;
+    const double texels_covered = spread * spread / (alpha2 * static_cast<double>(count)) * texels;
+    const float level = 0.5f * det_log2(static_cast<float>(texels_covered)) + 1.0f;
     const int last = static_cast<int>(mip_count) - 1;
     const auto mip = static_cast<std::size_t>(std::clamp(static_cast<int>(floor(level + 0.5f)), 0, last));
     samples.push_back({{static_cast<float>(2 * cosine * sine * turn.cosine),

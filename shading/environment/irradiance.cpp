@@ -1,4 +1,4 @@
-// Diffuse light of a picture by spherical harmonics.
+// Diffuse light of an environment picture by spherical harmonics.
 #include "core/thread_pool.h"
 #include "shading/environment/build.h"
 
@@ -7,11 +7,11 @@ namespace {
 
 constexpr double kPiDouble = 3.14159265358979323846;
 
-// Over a texel's columns: of 1, cos, sin, sin cos and cos 2 of the angle from +x towards +z.
+// Integrals over one column of texels: of 1, cos a, sin a, sin a cos a and cos 2a, a the angle from +x towards +z.
 struct ColumnIntegrals {
   double f[5];
 };
-// The rows' sums of radiance times these.
+// Sums over one row of radiance times the columns' integrals.
 struct RowSums {
   double f[5][3] = {};
 };
@@ -46,8 +46,8 @@ std::array<Vec3f, 9> irradiance_harmonics(const EquirectImage& image, ThreadPool
     }
   });
 
-  // With y the cosine c and the ring's radius s of the angle from +y: integrals over a row of what stands beside the
-  // column's part, times s for the area.
+  // With y the cosine c of the angle from +y and s its sine, the radius of the ring: integrals over a row of the
+  // factors that multiply the column's integral, times s for the area.
   double total[9][3] = {};
   for (std::size_t row = 0; row < rows; ++row) {
     const CirclePoint a = circle_point(row, 2 * rows), b = circle_point(row + 1, 2 * rows);

@@ -1,4 +1,4 @@
-// How much of a uniform environment a GGX lobe reflects.
+// The share of a uniform environment that a GGX lobe reflects.
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +23,7 @@ LobeShare lobe_share(double roughness, double cosine) {
   const double length = std::sqrt(alpha2 * sine * sine + cosine * cosine);
   const double view_x = alpha * sine / length, view_z = cosine / length;
   const double cut = 0.5 * (1 + view_z);
-  const double masked = 1 + lambda(alpha2, cosine);
+  const double masking = 1 + lambda(alpha2, cosine);
   LobeShare sum{0, 0};
   // Fibonacci's lattice on the disc.
   constexpr std::uint64_t kPoints = 987, kStep = 610;
@@ -41,7 +41,7 @@ LobeShare lobe_share(double roughness, double cosine) {
     const double v_dot_h = (hx * sine + hz * cosine) * inverse;
     const double light = 2 * v_dot_h * hz * inverse - cosine;
     if (!(light > 0) || !(v_dot_h > 0)) continue;
-    const double weight = masked / (masked + lambda(alpha2, light));
+    const double weight = masking / (masking + lambda(alpha2, light));
     const double off = 1 - std::min(v_dot_h, 1.0), off2 = off * off;
     sum.white += weight;
     sum.grazing += weight * off2 * off2 * off;

@@ -1,4 +1,4 @@
-// Octahedral maps of floats: resampled, halved, looked up; and make_environment, which puts everything together.
+// Octahedral maps of floats: resampling, halving and sampling them; and make_environment, which runs all steps.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -79,7 +79,7 @@ Vec3f sample_map(const FloatMap& map, Vec3f direction) {
 
 namespace {
 
-// Bilinear; the picture goes round, and beyond a pole is the row's other half.
+// Bilinear; the picture repeats horizontally, and beyond a pole the row continues on its other half.
 Vec3f look_up(const EquirectImage& image, Vec3f direction) {
   const auto width = static_cast<float>(image.width), height = static_cast<float>(image.height);
   const float turn = det_atan2(direction.z, direction.x) * (0.5f / kPi) + 0.5f;
@@ -107,7 +107,7 @@ Vec3f look_up(const EquirectImage& image, Vec3f direction) {
   return {out[0], out[1], out[2]};
 }
 
-// Not unit: looked up by its ratios only.
+// Of any length: only the ratios of its components matter.
 Vec3f direction_at(int size, float x, float y) {
   const float scale = 2.0f / static_cast<float>(size);
   return environment_detail::direction_of(Vec2f{x * scale - 1.0f, y * scale - 1.0f});
@@ -167,7 +167,8 @@ namespace {
 
 using environment_parts::FloatMap;
 
-// Texels a side at most and points a texel of the filtered levels: the wider the lobe, the fewer and the more.
+// Texels a side, at most, and sample points a texel of each filtered level: the wider the lobe, the fewer texels and
+// the more points.
 struct LevelPlan {
   int size, samples;
 };
@@ -182,8 +183,8 @@ constexpr LevelPlan kPlans[kEnvironmentLevels] = {{kMaxEnvironmentSize, 0},
                                                   {64, 1024}};
 
 int level_0_size(int height) {
-  const auto wanted = std::bit_ceil(static_cast<unsigned>(std::min(height, kMaxEnvironmentSize)) * 2u);
-  return std::clamp(static_cast<int>(wanted), 64, kMaxEnvironmentSize);
+  const auto texels = std::bit_ceil(static_cast<unsigned>(std::min(height, kMaxEnvironmentSize)) * 2u);
+  return std::clamp(static_cast<int>(texels), 64, kMaxEnvironmentSize);
 }
 
 // The largest power of two not above the brightest channel; 0 for black.
@@ -195,7 +196,7 @@ float unit_of(const std::vector<FloatMap>& levels) {
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(most) & 0xFF800000u);
 }
 
-// Nearest; below 2^-31 nothing.
+// Rounds to nearest; 0 below 2^-31.
 std::uint32_t encode(float value, float unit) {
   const float v = value / unit;
   if (!(v >= environment_detail::kCodeZero)) return 0;

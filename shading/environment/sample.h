@@ -1,4 +1,4 @@
-// Looking an environment up: what a ray sees that leaves the scene, and what a surface reflects of it.
+// Sampling an environment: radiance along rays that leave the scene, and light that surfaces reflect.
 #pragma once
 
 #include "core/vec_lanes.h"
@@ -8,7 +8,7 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 namespace environment_detail {
 
-// The direction on the unfolded octahedron: x and z of it in [-1, 1]. Any length; the zero vector is +y.
+// Projects a direction to the unfolded octahedron: x and z in [-1, 1]. Any length; the zero vector is +y.
 // Source: Meyer et al. 2010, "On floating-point normal vectors" (octahedral parametrisation), about +y.
 template <class F>
 SHOAL_INLINE Vec2<F> octahedral_of(Vec3<F> d) {
@@ -20,7 +20,7 @@ SHOAL_INLINE Vec2<F> octahedral_of(Vec3<F> d) {
           select(lower, flip_sign_if(one - abs(x), z < F(0.0f)), z)};
 }
 
-// Back onto the octahedron: not unit.
+// The inverse: a direction that is not unit.
 template <class F>
 SHOAL_INLINE Vec3<F> direction_of(Vec2<F> p) {
   const F one(1.0f);
@@ -67,7 +67,7 @@ SHOAL_INLINE Vec3<F> mixed_pair(const std::uint32_t* texels, IntOf<F> word, F t)
           mix(low_channel<F>(b0), low_channel<F>(b1), t)};
 }
 
-// Bilinear, as coded.
+// Bilinear filtering of coded texels.
 //   at           octahedral_of a direction
 //   size, first  of the level
 template <class F>
@@ -94,7 +94,7 @@ SHOAL_INLINE Vec3<F> decoded(Vec3<F> code, float scale) {
 
 }  // namespace environment_detail
 
-// What a ray sees. Out of line, so that scenes without an environment do not carry it at every call.
+// Radiance of the environment along a direction. Out of line, so that it is not repeated at every call.
 //   direction_world  away from the scene, any length; the zero vector is taken for +y
 //   out              linear radiance, not negative
 // Differs: bilinear at full size always, so a picture that is larger on the map than on the screen aliases (--spp).
@@ -106,8 +106,8 @@ __attribute__((noinline)) void environment_radiance(const Environment& e, const 
   out = decoded(bilinear<F>(e.texels.data(), at, IntOf<F>(e.size[0]), IntOf<F>(0)), e.scale);
 }
 
-// What a GGX lobe round a direction sees.
-//   mirrored   any length
+// The mean of the environment over a GGX lobe round a direction.
+//   mirrored   the direction, any length
 //   roughness  0 to 1 (clamped)
 // Returns linear radiance: the lobe's mean with its axis, the normal and the view in that direction.
 // Source: Karis 2013, "Real Shading in Unreal Engine 4" (prefiltered environment map).
@@ -143,7 +143,7 @@ SHOAL_INLINE Vec3<F> environment_irradiance(const Environment& e, Vec3<F> n) {
   return max(sum, zero);
 }
 
-// How much of a uniform environment the lobe reflects: for f0 = 1 (x) and for f0 = 0 (y).
+// The share of a uniform environment that the lobe reflects: for f0 = 1 (x) and for f0 = 0 (y).
 // Error: 0.005 against double from a cosine of 0.1 on, 0.012 from 0.03 on (tests/shading/test_environment.cpp).
 template <class F>
 SHOAL_INLINE Vec2<F> environment_lobe_share(const Environment& e, F roughness, F n_dot_v) {
@@ -174,7 +174,8 @@ struct EnvironmentPoint {
   F roughness, n_dot_v;
 };
 
-// Light of the environment towards the viewer: the specular lobe, what bounces between its facets, and Lambert below.
+// Light of the environment towards the viewer: the specular lobe, multiple scattering between its facets, and Lambert
+// below.
 //   out  linear radiance, without occlusion
 // Source: Fdez-Aguera 2019, "A Multiple-Scattering Microfacet Model for Real-Time Image Based Lighting", JCGT 8(1),
 // listing 1 (without its roughness-dependent Fresnel term). Error: in a uniform environment a white surface, metal or
@@ -186,7 +187,7 @@ __attribute__((noinline)) void reflect_environment(const Environment& e, const E
   const Vec3<F> ones{one, one, one};
   const F scale = share.x - share.y;
   const Vec3<F> single = p.f0 * scale + Vec3<F>{share.y, share.y, share.y};
-  // Facets send the share of 1 - share.x on to others; each time the mean reflectance is kept.
+  // The share 1 - share.x goes from facet to facet, and loses all but the mean reflectance each time.
   const F again = one - share.x;
   const Vec3<F> mean = p.f0 + (ones - p.f0) * F(1.0f / 21.0f);
   const Vec3<F> bounces = mean * again;

@@ -1,4 +1,4 @@
-// What a point sees of the sun, from a shadow map.
+// Visibility of the sun from points, by shadow map.
 #pragma once
 
 #include "core/vec_lanes.h"
@@ -6,15 +6,15 @@
 
 namespace shoal::inline SHOAL_ISA_NS {
 
-static_assert(kShadowCell == 8, "the look-up shifts by 3");
+static_assert(kShadowCell == 8, "level_visibility shifts by 3");
 
-// The farthest tap's centre is 1.5 texels off on either axis: on a plane, this much along the normal times the sine to
-// the sun clears all nine (their depths are those of the plane at their centres).
+// The farthest tap's centre is 1.5 texels away on either axis. On a plane, an offset along the normal of this many
+// texels times the sine to the sun clears all nine taps, whose depths are those of the plane at their centres.
 inline constexpr float kNormalOffsetTexels = 2.2f;
-// An interpolated normal and its triangle's own that agree less than this (cosine) are taken to agree so much.
+// Lower bound of the cosine between an interpolated normal and the triangle's own.
 inline constexpr float kMinAgreement = 0.5f;
 
-// Where points look a level up.
+// Where points lie in a level of a map.
 struct ShadowPlace {
   WideF x, y;     // texels, of the first tap: within the level
   WideF nearest;  // the points' own depths, less the bias
@@ -22,12 +22,13 @@ struct ShadowPlace {
   WideM inside;   // of the level
 };
 
-// Where points look a level up, and asks for what they will read there: the maps are larger than the caches.
+// Finds where points lie in a level, and prefetches the texels there: the maps are larger than the caches.
 //
 //   map       a level of the map of the medium that the points are in
 //   position  world; normal: unit, of the surface, towards the sun's side
-//   facet     unit, of the triangle itself, of either side: the texels lie on it, so it says how steep they are (where
-//             the interpolated normal faces the sun and the facet does not, its own texels would shade it)
+//   facet     unit, of the triangle itself, on either side. The texels lie on the triangle, so its slope counts: where
+//   the
+//             interpolated normal faces the sun and the triangle does not, its own texels would shade it
 // Source: normal offset as Holbert (2011).
 __attribute__((noinline)) inline void find_place(const ShadowMap& map, Vec3<WideF> position, Vec3<WideF> normal,
                                                  Vec3<WideF> facet, ShadowPlace& out) {
@@ -63,12 +64,13 @@ __attribute__((noinline)) inline void find_place(const ShadowMap& map, Vec3<Wide
   for (const int lane : {0, 3, 5, 6, 9, 10, 12, 15}) __builtin_prefetch(map.depth.data() + slots[lane]);
 }
 
-// Weighted share of nine taps of one level that see the sun.
+// Weighted share of nine taps of one level that are not in shadow.
 //
-//   place  find_place
-//   lanes  that are wanted; the others get anything from 0 to 1
-// Returns 0 (in shadow) to 1, and which of the lanes are inside of the level. The edge is two texels wide and moves
-// smoothly. Source: percentage-closer filtering (Reeves, Salesin, Cook 1987) over a box of two texels round the
+//   place   of find_place
+//   lanes   that are set; the others get a value from 0 to 1
+//   inside  becomes the lanes that are inside of the level
+// Returns 0 (in shadow) to 1. A shadow's edge is two texels wide and moves smoothly.
+// Source: percentage-closer filtering (Reeves, Salesin, Cook 1987) over a box of two texels round the
 // bilinear position. Error: none for points farther from a shadow's edge than kNormalOffsetTexels + 1.5 texels along
 // the surface (tests/refraction/test_shadow.cpp).
 __attribute__((noinline)) inline WideF level_visibility(const ShadowMap& map, const ShadowPlace& place, WideM lanes,
@@ -92,34 +94,34 @@ __attribute__((noinline)) inline WideF level_visibility(const ShadowMap& map, co
     column_slot[i] = ((cx >> 2) << 4) + (cx & WideI(3));
     row_slot[i] = ((cy >> 2) * WideI(map.grid.blocks_x) << 4) + ((cy & WideI(3)) << 2);
   }
-  WideF seen = zero;
+  WideF visible = zero;
   for (int j = 0; j < 3; ++j) {
     WideF in_row = zero;
     for (int i = 0; i < 3; ++i) {
       const WideF depth = gather(map.depth.data(), row_slot[j] + column_slot[i], open, zero);
       in_row = in_row + select(depth <= place.nearest, weight_x[i], zero);
     }
-    seen = seen + in_row * weight_y[j];
+    visible = visible + in_row * weight_y[j];
   }
-  return select(lit, one, select(dark, zero, seen * WideF(0.25f)));
+  return select(lit, one, select(dark, zero, visible * WideF(0.25f)));
 }
 
-// The same from the finest level that holds each point; 1 (lit) outside of all.
-//   first  find_place in the map's first level; position, normal, facet: as there
+// The same from the finest level that each point is inside of; 1 (lit) outside of all levels.
+//   first  of find_place in the map's first level; position, normal, facet: as there
 SHOAL_INLINE WideF sun_visibility(const SunMap& map, const ShadowPlace& first, Vec3<WideF> position, Vec3<WideF> normal,
                                   Vec3<WideF> facet, WideM lanes) {
   WideM inside;
-  WideF seen = level_visibility(map.levels[0], first, lanes, inside);
-  seen = select(inside, seen, WideF(1.0f));
+  WideF visible = level_visibility(map.levels[0], first, lanes, inside);
+  visible = select(inside, visible, WideF(1.0f));
   for (std::size_t i = 1; i < map.levels.size(); ++i) {
     lanes = lanes & !inside;
     if (none(lanes)) break;
     ShadowPlace place;
     find_place(map.levels[i], position, normal, facet, place);
     const WideF here = level_visibility(map.levels[i], place, lanes, inside);
-    seen = select(inside, here, seen);
+    visible = select(inside, here, visible);
   }
-  return seen;
+  return visible;
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -12,7 +12,7 @@ namespace shoal {
 namespace {
 
 constexpr int kShadowTile = 128;      // texels; fixed, as the maps do not depend on --tile
-constexpr int kBorderTexels = 4;      // empty ones on each side: what lies there is lit
+constexpr int kBorderTexels = 4;      // empty ones on each side: points there are lit
 constexpr float kOverlap_m = 0.001f;  // both parts reach this far beyond the plane, so that no seam opens at it
 
 // Axes of the sun's view; they depend on its direction alone.
@@ -54,7 +54,8 @@ Extent extent_of(const std::vector<Meshlet>& meshlets, const std::vector<SunBend
   return extent;
 }
 
-// The dense part of the scene across the sun's rays, and all of its water: few meshlets are out of it, on any side.
+// The dense part of the scene across the sun's rays, and all of its water: a twentieth of the meshlets, at most, lies
+// beyond it on any side.
 Extent dense_part(const SunShadowIn& in, const Extent& whole, const SunAxes& axes) {
   constexpr float kPadding = 0.15f;  // of its width, on each side
   const std::vector<Meshlet>& meshlets = in.meshlets;
@@ -101,7 +102,7 @@ ShadowMap place_map(const Extent& extent, const SunAxes& axes, int size_px) {
   camera.position_world = axes.right * snapped(extent.lo.x, extent.hi.x) + axes.up * snapped(extent.lo.y, extent.hi.y) +
                           axes.forward * (extent.lo.z - margin);
   map.view = make_view(camera, size_px, size_px, {0, 0});
-  // Rounding of coordinates, and a twentieth of a texel; slopes are the look-up's affair.
+  // Rounding of coordinates, and a twentieth of a texel; find_place accounts for slopes.
   map.bias = (0.05f * map.texel_m + 1e-6f * (width_of(extent) + range)) / camera.far_m;
   return map;
 }
@@ -161,8 +162,8 @@ std::vector<ShadowPass> passes_of(const ShadowMap& map, const GeometryView& geom
   return passes;
 }
 
-// One row of cells. A look-up that begins in a cell reaches two texels beyond it, and its middle tap is one texel from
-// the others along either axis.
+// Measures one row of cells. The nine taps that begin in a cell reach two texels beyond it, and the middle one is one
+// texel from the others along either axis.
 void measure_steepness(ShadowMap& map, int cell_row) {
   constexpr int kRows = kShadowCell + 2;
   const int size = map.grid.width_px, y0 = cell_row * kShadowCell;

@@ -2,11 +2,11 @@
 //
 // Under flat water the sun's rays are parallel still, only steeper. Everything below the plane is therefore sheared
 // along it, p + shear * depth, so that a straight ray from the sun reaches the sheared point where the bent ray reaches
-// the true one: exact for a flat surface. Points in a body's water look up its map, points in the air the first.
+// the true one: exact for a flat surface. The body's map shades points in its water, the first map points in the air.
 //
-// The maps hold the whole scene, so that they do not depend on the camera: nothing crawls when it moves, and they are
-// built once for a scene whose geometry and sun stand still. Where a few things stand far out (hills round a garden), a
-// map has two levels: a fine one of the scene's dense part and its water, and a coarse one of all.
+// The maps hold the whole scene, so they do not depend on the camera: shadow edges do not crawl when it moves, and maps
+// are built once for a scene whose geometry and sun stand still. Where a few meshlets stand far out (hills round a
+// garden), a map has two levels: a fine one of the scene's dense part and its water, and a coarse one of all.
 //
 // Source  the shear: bowfishing-blitz (2022), which scales heights below the water in the light's view.
 #pragma once
@@ -29,8 +29,8 @@ struct ShadowMap {
   float texel_m = 1;
   float bias = 0;             // of depths, in their own unit
   AlignedArray<float> depth;  // blocked; greater is nearer to the sun, 0 where nothing is
-  // By cell of kShadowCell texels a side, in rows: how far any depth of a look-up that begins there can be from its
-  // middle tap's. Small on smooth surfaces, where one tap then decides for all.
+  // By cell of kShadowCell texels a side, in rows: the greatest difference between the depths of nine taps that begin
+  // there and their middle tap's depth. Small on smooth surfaces, where one tap then decides for all.
   AlignedArray<float> steepness;
 };
 inline constexpr int kShadowCell = 8;

@@ -15,16 +15,16 @@ struct Probes {
 };
 
 namespace footprint_detail {
-// A derivative whose fourth powers are finite: texels beyond a million are all the same to a chain of 15 levels.
+// Limits a derivative so that its fourth power is finite: all larger footprints have the last of 15 levels.
 template <class F>
 SHOAL_INLINE F tame(F texels) {
-  constexpr float kMost = 0x1p20f;
-  return select(texels == texels, clamp(texels, F(-kMost), F(kMost)), F(0.0f));
+  constexpr float kMax = 0x1p20f;
+  return select(texels == texels, clamp(texels, F(-kMax), F(kMax)), F(0.0f));
 }
 }  // namespace footprint_detail
 
 // The probes of one pixel.
-//   duv_dx, duv_dy  what uv changes by over one pixel
+//   duv_dx, duv_dy  the change of uv over one pixel
 //   limit           2 to 16: the most probes, and the greatest ratio of the axes that keeps its sharpness
 // With the derivatives in texels as columns, the singular values of that matrix are the ellipse's axes, long and short.
 // The ratio eta = min(long / short, limit); a probe is as wide as long / eta, so the level changes smoothly, and there

@@ -1,7 +1,8 @@
 // Sampling a texture: level of detail, wrapping, filtering. One texture and one sampler for all lanes of a call.
 //
 // Texel coordinates and weights are fixed-point, 15 bits of fraction, from one multiplication; filtering is integer for
-// the 8-bit formats (shading/textures/texel_filter.h) and float for float textures. A lane's result never depends on the others'.
+// the 8-bit formats (shading/textures/texel_filter.h) and float for float textures. A lane's result never depends on
+// the other lanes.
 #pragma once
 
 #include "core/vec_lanes.h"
@@ -82,7 +83,7 @@ SHOAL_INLINE AxisTap<F> axis_tap(F folded, IntOf<F> size, Wrap wrap, IntOf<F> ha
   return {x >> kFractionBits, x & weight_mask};
 }
 
-// What is one for all levels of a lane.
+// The part of a sample that all levels share.
 template <class F>
 struct Footprint {
   Vec2<F> folded;
@@ -148,7 +149,7 @@ SHOAL_INLINE Vec4<F> bilinear_float(const Texture& texture, const Sampler& sampl
 }  // namespace sample_detail
 
 // The level of detail of one pixel, before clamping to the levels that there are.
-//   duv_dx, duv_dy  what uv changes by over one pixel
+//   duv_dx, duv_dy  the change of uv over one pixel
 // Returns log2 of the longer of the two in texels of level 0: whole level and fraction in units of 2^-15, from 0
 // (magnified, or not a number) to 14.
 // Source: Vulkan 1.3, 16.5.7 (scale factor rho_max, no anisotropy). Error: 1e-4 levels (test_texture.cpp).
@@ -171,7 +172,7 @@ struct Levels {
   IntOf<F> half, weight_mask;
 };
 
-//   lod_of  gives the Lod; not asked where it makes no difference
+//   lod_of  returns the Lod; not called where it makes no difference
 template <class F, class LodOf>
 SHOAL_INLINE Levels<F> choose_levels(const Texture& texture, const Sampler& sampler, LodOf lod_of) {
   using I = IntOf<F>;
@@ -220,8 +221,8 @@ SHOAL_INLINE Vec4<F> sample_levels(const Texture& texture, const Sampler& sample
   return texels_to_float(lerp_texels(a, sample_one_level<F>(texture, sampler, at, one_level + 1), fraction));
 }
 
-// The mean of a pixel's probes (shading/textures/footprint.h). As a running mean it is exact where all texels are equal and never
-// leaves their range.
+// The mean of a pixel's probes (shading/textures/footprint.h). It is a running mean: exact where all texels are equal,
+// and never out of their range.
 template <class F>
 __attribute__((noinline)) void sample_anisotropic(const Texture& texture, const Sampler& sampler, const Vec2<F>& uv,
                                                   const Vec2<F>& duv_dx, const Vec2<F>& duv_dy, const MaskOf<F>& active,
@@ -249,7 +250,7 @@ __attribute__((noinline)) void sample_anisotropic(const Texture& texture, const 
 // Samples `texture` at `uv`: linear light, alpha as stored.
 //   uv              any value; (0, 0) is the corner of the first texel, v goes down the rows
 //   duv_dx, duv_dy  derivatives of uv over one pixel
-//   active          lanes that are wanted; the others read only valid texels too and return anything finite
+//   active          lanes that are set; the others too read only valid texels, and return finite values
 // Returns R, G, B, A, in [0, 1] for the 8-bit formats. uv that is NaN or infinite is taken as some valid texel.
 // Source: Vulkan 1.3, 16.5 to 16.9 (image operations). Differs: nearest mip is floor(lod + 1/2); weights have 15 bits;
 // anisotropy: shading/textures/footprint.h.

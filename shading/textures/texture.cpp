@@ -82,7 +82,8 @@ void for_each_mip_texel(const Texture& texture, int level, Make make) {
       make(x, y, across[static_cast<std::size_t>(x)], down[static_cast<std::size_t>(y)]);
 }
 
-// Differences of stored floats must not overflow, and there is one zero: so filtering by a weight of 0 changes no bit.
+// Makes a float safe to store: differences of stored floats do not overflow, and -0 becomes 0, so that filtering by a
+// weight of 0 changes no bit.
 float storable(float value) {
   constexpr float kLargest = 1e37f;
   return std::isfinite(value) ? std::clamp(value, -kLargest, kLargest) + 0.0f : 0.0f;

@@ -22,15 +22,15 @@ inline constexpr int kMaxTextureLevels = 15;  // 16384 = 2^14
 
 // Level 0 and its mips, one after the other: 2 x 2 boxes in linear light, sizes halved and floored, down to 1 x 1.
 //
-// Both 8-bit formats are stored as 15-bit linear light (shading/srgb.h), 64 bits a texel: nothing is left to decode when
-// a texel is read, and integer filtering gives the same bits on every machine. It costs twice the bytes of the input.
-// Every level's rows have one more texel at the right end, the first of the row again, and every level one more row at
-// the bottom, the first again, so that the four texels of a bilinear tap are two loads in the repeat mode too.
+// Both 8-bit formats are stored as 15-bit linear light (shading/srgb.h), 64 bits a texel: nothing is left to decode
+// when a texel is read, and integer filtering gives the same bits on every machine. It costs twice the bytes of the
+// input. Every level's rows have one more texel at the right end, the first of the row again, and every level one more
+// row at the bottom, the first again, so that the four texels of a bilinear tap are two loads in the repeat mode too.
 struct Texture {
   TexelFormat format = TexelFormat::kRgba8Srgb;
   int level_count = 0;
-  // By level, sixteen entries each for a lookup a lane (shading/textures/sample.h); those past the last level repeat it.
-  // Texel (x, y) of level k is number first_texel[k] + y * (width[k] + 1) + x.
+  // By level, sixteen entries each for a lookup a lane (shading/textures/sample.h); those past the last level repeat
+  // it. Texel (x, y) of level k is number first_texel[k] + y * (width[k] + 1) + x.
   alignas(64) std::int32_t width[16] = {};
   alignas(64) std::int32_t height[16] = {};
   alignas(64) std::int32_t first_texel[16] = {};
@@ -54,7 +54,7 @@ struct Sampler {
 // the stored 15-bit texels (tests/shading/test_texture.cpp); levels are not rounded to 8 bits.
 Texture make_texture_rgba8(int width, int height, const std::uint8_t* texels, bool srgb);
 
-// The same for linear floats, 4 a texel. What is not finite becomes 0, and beyond 1e37 that.
+// The same for linear floats, 4 a texel. Values that are not finite become 0; others are clamped to +-1e37.
 Texture make_texture_float(int width, int height, const float* rgba);
 
 // The bytes (R, G, B, A; row-major, no padding) that level 0 of an 8-bit texture was made from, exactly.

@@ -1,4 +1,4 @@
-// Which texture coordinates a map of a material is read with: one of a vertex's two sets, transformed.
+// The texture coordinates of a material's map: one of a vertex's two sets, transformed.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ SHOAL_INLINE UvMap make_uv_map(std::int32_t set, Vec2f offset, float rotation, V
   return map;
 }
 
-// Texture coordinates and what they change by over one pixel.
+// Texture coordinates and their change over one pixel.
 template <class F>
 struct UvPoint {
   Vec2<F> uv, duv_dx, duv_dy;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "path_oracle.h"
+#include "tests/refraction/path_oracle.h"
 #include "bench/solvers/path_solvers.h"
 
 namespace {

@@ -135,7 +135,7 @@ SHOAL_ISA_CASE(test_trigonometric, "sin, cos, tan over all finite floats") {
   for (const std::uint32_t nan : {0x7FC00000u, 0xFFC00000u, 0x7F800001u, 0xFF800001u}) {
     volatile std::uint32_t hidden = nan;
     const float v = from_bits(hidden);
-    for (const float zero : {det_sin(v), det_tan(v), det_asin(v), det_atan(v), det_exp2(v), det_exp(v)})
+    for (const float zero : {det_sin(v), det_tan(v), det_atan(v), det_exp2(v), det_exp(v)})
       CHECK(std::bit_cast<std::uint32_t>(zero) == 0u);
     CHECK(det_pow(2.0f, v) == 1.0f);
     CHECK(det_pow(v, 2.0f) == 0.0f);
@@ -181,7 +181,7 @@ SHOAL_ISA_CASE(test_logarithm, "log2 and log, denormals and neighbours of 1 incl
   CHECK(det_log(kInfinity) == kInfinity);
 }
 
-SHOAL_ISA_CASE(test_arcs, "asin, acos and atan") {
+SHOAL_ISA_CASE(test_arcs, "acos and atan") {
   Inputs inputs;
   for (const float x : all_binades(200))
     if (std::fabs(x) <= 1.0f) inputs.push_back(x);
@@ -191,16 +191,12 @@ SHOAL_ISA_CASE(test_arcs, "asin, acos and atan") {
     inputs.push_back(from_bits(0x3F800000u - i));
     inputs.push_back(from_bits(0xBF800000u - i));
   }
-  SHOAL_CHECK_FUNCTION(det_asin, inputs, 2.5, [](double v) { return std::asin(v); });
   SHOAL_CHECK_FUNCTION(det_acos, inputs, 1.5, [](double v) { return std::acos(v); });
   for (const float v : {1.5f, kMost, kInfinity}) {
     CHECK(det_acos(v) == 0.0f);
     CHECK(det_acos(-v) == kPi);
-    CHECK(det_asin(v) == kHalfPi);
-    CHECK(det_asin(-v) == -kHalfPi);
   }
   CHECK(det_acos(kNan) == kHalfPi);
-  CHECK(det_asin(kNan) == 0.0f);
 
   Inputs all = all_binades(200);
   add_range(all, -10.0, 10.0, 40000);
@@ -355,14 +351,13 @@ std::uint64_t digest_of(Function function) {
 
 }  // namespace
 
-// Infinities, NaN and denormals go in too: 393 216 results a function, 12 functions.
+// Infinities, NaN and denormals go in too: 393 216 results a function, 11 functions.
 SHOAL_ISA_CASE(test_digest, "the same bits on every machine") {
   CHECK(digest_of([](WideF a, WideF) { return det_sin(a); }) == 0x5E27D20F0844CDAEu);
   CHECK(digest_of([](WideF a, WideF) { return det_cos(a); }) == 0x5616DB8595A12D41u);
   CHECK(digest_of([](WideF a, WideF) { return det_tan(a); }) == 0xD24E67F7318693A7u);
   CHECK(digest_of([](WideF a, WideF b) { return det_atan2(a, b); }) == 0x64A84AA999A1685Fu);
   CHECK(digest_of([](WideF a, WideF) { return det_atan(a); }) == 0x074B0A1524285277u);
-  CHECK(digest_of([](WideF a, WideF) { return det_asin(a); }) == 0x41CDA818E4E2B879u);
   CHECK(digest_of([](WideF a, WideF) { return det_acos(a); }) == 0x2C803DD6D389E2E5u);
   CHECK(digest_of([](WideF a, WideF) { return det_exp2(a); }) == 0x94630C4C91C1AAFFu);
   CHECK(digest_of([](WideF a, WideF) { return det_exp(a); }) == 0xF02F5C73B9C456A1u);

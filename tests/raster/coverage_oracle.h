@@ -113,12 +113,8 @@ struct CountingCut {
 template <class Program>
 Coverage raster_coverage(const Geometry& g, const Program& program, const PassSettings& pass, bool two_sided,
                          std::uint32_t per_work_item) {
-  Materials materials;
-  Material material;
-  material.alpha_mode = AlphaMode::kMask;
-  material.double_sided = two_sided;
-  materials.materials.push_back(material);
-  const std::vector<WorkItemBins> work_items = bin_geometry(g, materials, program, pass, per_work_item);
+  const std::vector<DrawState> draw_states = {{.double_sided = two_sided, .alpha_tested = true}};
+  const std::vector<WorkItemBins> work_items = bin_geometry(g, draw_states, program, pass, per_work_item);
   Coverage seen(pass.width_px, pass.height_px);
   VisibilityBuffer buffer;
   draw_tiles(work_items, pass, CountingCut{&seen}, buffer);

@@ -24,11 +24,12 @@ inline PassSettings whole_frame(int width_px, int height_px, Vec2f centre_px, in
   return pass;
 }
 
-// Meshlets through the vertex program into bins, `per_work_item` meshlets an work_item.
+// Meshlets through the vertex program into bins, `per_work_item` meshlets a work item.
+//   draw_states  one a material
 template <class Program>
-std::vector<WorkItemBins> bin_geometry(const Geometry& g, const Materials& m, const Program& program,
-                                  const PassSettings& pass, std::uint32_t per_work_item) {
-  const GeometryView view = view_of(g, m);
+std::vector<WorkItemBins> bin_geometry(const Geometry& g, const std::vector<DrawState>& draw_states,
+                                       const Program& program, const PassSettings& pass, std::uint32_t per_work_item) {
+  const GeometryView view = view_of(g, draw_states.data());
   const std::uint32_t meshlets = static_cast<std::uint32_t>(g.meshlets.size());
   std::vector<WorkItemBins> work_items((meshlets + per_work_item - 1) / per_work_item);
   for (std::uint32_t i = 0; i < work_items.size(); ++i) {
@@ -50,7 +51,7 @@ void draw_tiles(const std::vector<WorkItemBins>& work_items, const PassSettings&
       TileRaster<AlphaTest> raster(out, alpha, x0, y0, std::min(x0 + grid.tile_px, pass.width_px),
                                    std::min(y0 + grid.tile_px, pass.height_px));
       raster.clear();
-      for (const WorkItemBins& work_item : work_items) raster.draw(work_item, static_cast<std::uint32_t>(ty * grid.tiles_x + tx));
+      for (const WorkItemBins& bins : work_items) raster.draw(bins, static_cast<std::uint32_t>(ty * grid.tiles_x + tx));
     }
 }
 

@@ -21,9 +21,9 @@ constexpr double kEps = 1.0 / 16777216.0;  // half a unit in the last place, rel
 Vec3d to_double(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 double norm(Vec3d v) { return std::sqrt(dot(v, v)); }
 
-VisibilityBuffer draw(const Geometry& g, const Materials& m, const PassSettings& pass, const PixelProgram& program,
-                      std::uint32_t per_work_item, bool reversed_items = false) {
-  std::vector<WorkItemBins> work_items = bin_geometry(g, m, program, pass, per_work_item);
+VisibilityBuffer draw(const Geometry& g, const std::vector<DrawState>& draw_states, const PassSettings& pass,
+                      const PixelProgram& program, std::uint32_t per_work_item, bool reversed_items = false) {
+  std::vector<WorkItemBins> work_items = bin_geometry(g, draw_states, program, pass, per_work_item);
   std::vector<WorkItemBins> ordered;
   for (std::size_t i = 0; i < work_items.size(); ++i)
     ordered.push_back(std::move(work_items[reversed_items ? work_items.size() - 1 - i : i]));
@@ -32,12 +32,7 @@ VisibilityBuffer draw(const Geometry& g, const Materials& m, const PassSettings&
   return out;
 }
 
-Materials two_sided() {
-  Materials m;
-  m.materials.emplace_back();
-  m.materials[0].double_sided = true;
-  return m;
-}
+std::vector<DrawState> two_sided() { return {{.double_sided = true}}; }
 
 // Depth of a triangle's plane at a pixel in double, and how far float's rounding of the plane's terms can be off.
 struct PlaneDepth {
@@ -101,7 +96,7 @@ TEST_CASE("depth: at covered pixels as the plane of the snapped corners in doubl
   TestRandom random(21);
   double worst = 0;
   long pixels = 0, out_of_range = 0;
-  const Materials materials = two_sided();
+  const std::vector<DrawState> draw_states = two_sided();
   for (int round = 0; round < 400; ++round) {
     const int width = round % 7 == 0 ? 16384 : 200, height = round % 7 == 0 ? 4 : 130;
     const Vec2f centre{static_cast<float>(width) * 0.5f, static_cast<float>(height) * 0.5f};
@@ -120,7 +115,7 @@ TEST_CASE("depth: at covered pixels as the plane of the snapped corners in doubl
     if (side_of(t, 0, 1, t.x[2], t.y[2]) == 0) continue;
     const float d[3] = {m.positions[0].z, m.positions[1].z, m.positions[2].z};
     const Geometry g = geometry_of(m.positions, m.indices);
-    const VisibilityBuffer out = draw(g, materials, whole_frame(width, height, centre, 64), PixelProgram{centre}, 1);
+    const VisibilityBuffer out = draw(g, draw_states, whole_frame(width, height, centre, 64), PixelProgram{centre}, 1);
     const float lo = std::min({d[0], d[1], d[2]}), hi = std::max({d[0], d[1], d[2]});
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
@@ -139,7 +134,8 @@ TEST_CASE("depth: at covered pixels as the plane of the snapped corners in doubl
   CHECK(worst < 6 * kEps);
 }
 
-TEST_CASE("depth: the nearest triangle shows, the smaller id where depths are equal, whatever order, tile or work_item") {
+TEST_CASE(
+    "depth: the nearest triangle shows, the smaller id where depths are equal, whatever order, tile or work item") {
   TestRandom random(22);
   const int width = 131, height = 77;
   const Vec2f centre{65.5f, 38.5f};
@@ -166,7 +162,7 @@ TEST_CASE("depth: the nearest triangle shows, the smaller id where depths are eq
       }
   }
   Geometry g = geometry_of(m.positions, m.indices);
-  const Materials materials = two_sided();
+  const std::vector<DrawState> draw_states = two_sided();
   for (int order = 0; order < 4; ++order) {
     // Meshlets keep their ids wherever they stand.
     if (order == 1) std::reverse(g.meshlets.begin(), g.meshlets.end());
@@ -176,8 +172,8 @@ TEST_CASE("depth: the nearest triangle shows, the smaller id where depths are eq
                   g.meshlets[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(i) - 1))]);
     for (const int tile : {16, 32, 64, 128, 256})
       for (const std::uint32_t per_work_item : {1u, 5u, 1000u}) {
-        const VisibilityBuffer out =
-            draw(g, materials, whole_frame(width, height, centre, tile), PixelProgram{centre}, per_work_item, order == 3);
+        const VisibilityBuffer out = draw(g, draw_states, whole_frame(width, height, centre, tile),
+                                          PixelProgram{centre}, per_work_item, order == 3);
         long wrong = 0;
         for (int y = 0; y < height; ++y)
           for (int x = 0; x < width; ++x) {
@@ -235,10 +231,10 @@ TEST_CASE("resolve: position, uv, normal, colour, derivatives and level of detai
     mesh.colors = colors.data();
     mesh.indices = indices, mesh.vertex_count = mesh.index_count = 3;
     append_mesh(g, mesh);
-    const Materials materials = two_sided();
+    const std::vector<DrawState> draw_states = two_sided();
     PixelAttributes<WideF> a;
     const Ray<WideF> wide = pixel_ray<WideF>(view, WideF(x_px), WideF(y_px));
-    resolve_attributes(view_of(g, materials), wide, pixel_ray_differential<WideF>(view), WideI(0),
+    resolve_attributes(view_of(g, draw_states.data()), wide, pixel_ray_differential<WideF>(view), WideI(0),
                        mask_from_bits(0xFFFFu), a);
     const auto lane = [](WideF v) { return static_cast<double>(extract(v, 5)); };
 

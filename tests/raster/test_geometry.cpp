@@ -1,4 +1,4 @@
-// Chunking: every triangle once, in order, where it was, within the limits.
+// Meshlets: every triangle once, in order, where it was, within the limits.
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "raster/geometry.h"
+#include "raster/geometry_lookup.h"
 #include "raster/geometry_measure.h"
 
 using namespace shoal;
@@ -176,6 +177,23 @@ TEST_CASE("drawables go on with ids; what is not drawn has ids but no meshlets",
     for (std::size_t k = 0; k < 3; ++k) {
       CHECK(equal(g.vertices[g.triangles[t].vertex[k]].position_world, b.positions[b.indices[3 * (t - 300) + k]]));
     }
+  }
+}
+
+TEST_CASE("a triangle's drawable is the last that starts at or before it, empty drawables or not", "[geometry]") {
+  Geometry g;
+  CHECK(drawable_of(g, 0) == 0);
+  std::uint32_t first = 0;
+  for (const std::uint32_t count : {3u, 1u, 0u, 0u, 7u, 2u, 0u, 5u}) {
+    Drawable d;
+    d.first_triangle = first, d.triangle_count = count;
+    g.drawables.push_back(d);
+    first += count;
+  }
+  for (std::uint32_t id = 0; id < first; ++id) {
+    const Drawable& d = g.drawables[drawable_of(g, static_cast<std::int32_t>(id))];
+    CAPTURE(id);
+    CHECK((id >= d.first_triangle && id < d.first_triangle + d.triangle_count));
   }
 }
 

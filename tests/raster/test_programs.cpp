@@ -58,11 +58,11 @@ struct Picture {
 };
 
 template <class VertexProgram, class PixelProgram>
-Picture draw_picture(Geometry geometry, const Materials& materials, const VertexProgram& vertex,
+Picture draw_picture(Geometry geometry, const std::vector<DrawState>& draw_states, const VertexProgram& vertex,
                      const PixelProgram& pixel, const View& view, int tile_px) {
   const PassSettings pass = whole_frame(view.width_px, view.height_px, view.centre_px, tile_px);
   VisibilityBuffer seen;
-  draw_tiles(bin_geometry(geometry, materials, vertex, pass, 4), pass, KeepAll{}, seen);
+  draw_tiles(bin_geometry(geometry, draw_states, vertex, pass, 4), pass, KeepAll{}, seen);
 
   // The pixel stages read positions and normals from the vertex records: there, too, they are where the program puts
   // them.
@@ -71,7 +71,7 @@ Picture draw_picture(Geometry geometry, const Materials& materials, const Vertex
     v.position_world = vertex.turn(v.position_world, height);
     v.normal_world = vertex.turn(v.normal_world, height);
   }
-  const GeometryView records = view_of(geometry, materials);
+  const GeometryView records = view_of(geometry, draw_states.data());
   const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(view);
   Picture out;
   out.color.resize(static_cast<std::size_t>(view.width_px * view.height_px), Vec3f{0, 0, 0});
@@ -136,19 +136,19 @@ Vec3d twisted(Vec3f v, float height, float turn_per_m) {
   return {c * d.x - s * d.z, d.y, s * d.x + c * d.z};
 }
 
-struct Truth {
+struct Expected {
   std::int32_t id = kNoId;
   Vec3d color{0, 0, 0};
   double from_edge = 1;  // of the checkerboard, in squares
 };
 
-Truth shade_in_double(const Geometry& g, float turn_per_m, const View& view, int x, int y) {
+Expected shade_in_double(const Geometry& g, float turn_per_m, const View& view, int x, int y) {
   const double dx = x + 0.5 - static_cast<double>(view.centre_px.x),
                dy = y + 0.5 - static_cast<double>(view.centre_px.y);
   const Vec3d o = as_double(view.camera.position_world);
   const Vec3d d = as_double(view.camera.forward_world) + as_double(view.ray_dx) * dx + as_double(view.ray_dy) * dy;
   double nearest = std::numeric_limits<double>::infinity();
-  Truth out;
+  Expected out;
   for (std::size_t i = 0; i < g.triangles.size(); ++i) {
     const VertexRecord* v[3];
     Vec3d p[3], n[3];
@@ -181,28 +181,27 @@ Truth shade_in_double(const Geometry& g, float turn_per_m, const View& view, int
 
 TEST_CASE("programs: a user's twist and checkerboard draw what double precision says") {
   const Geometry geometry = tower(40);
-  Materials materials;
-  materials.materials.emplace_back();
+  const std::vector<DrawState> draw_states(1);
   Camera camera;
   camera.position_world = {0.3f, 1.6f, 5};
   const int width = 99, height = 122;
   const View view = make_view(camera, width, height, {0, 0});
   const Twist twist{view, 0.7f};
-  const Picture picture = draw_picture(geometry, materials, twist, Checker{}, view, 64);
+  const Picture picture = draw_picture(geometry, draw_states, twist, Checker{}, view, 64);
 
   long drawn = 0, same = 0, close = 0, whites = 0, next_to_edge = 0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const std::size_t at = static_cast<std::size_t>(y * width + x);
-      const Truth truth = shade_in_double(geometry, twist.turn_per_m, view, x, y);
-      drawn += truth.id != kNoId;
-      if (picture.id[at] != truth.id) continue;  // at edges, within the grid's 1/512 px; counted below
-      same += truth.id != kNoId;
-      whites += truth.id != kNoId && truth.color.x != 0.1;
-      const Vec3d off = as_double(picture.color[at]) - truth.color;
+      const Expected expected = shade_in_double(geometry, twist.turn_per_m, view, x, y);
+      drawn += expected.id != kNoId;
+      if (picture.id[at] != expected.id) continue;  // at edges, within the grid's 1/512 px; counted below
+      same += expected.id != kNoId;
+      whites += expected.id != kNoId && expected.color.x != 0.1;
+      const Vec3d off = as_double(picture.color[at]) - expected.color;
       const bool right = std::fabs(off.x) < 1e-5 && std::fabs(off.y) < 1e-5 && std::fabs(off.z) < 1e-5;
-      next_to_edge += truth.id != kNoId && truth.from_edge < 1e-4;
-      close += truth.id != kNoId && (right || truth.from_edge < 1e-4);
+      next_to_edge += expected.id != kNoId && expected.from_edge < 1e-4;
+      close += expected.id != kNoId && (right || expected.from_edge < 1e-4);
     }
   CAPTURE(drawn, same, close, whites, next_to_edge);
   CHECK(drawn > 1500);
@@ -212,7 +211,7 @@ TEST_CASE("programs: a user's twist and checkerboard draw what double precision 
   CHECK(next_to_edge < 20);
 
   // The same bytes from other tiles.
-  const Picture other = draw_picture(geometry, materials, twist, Checker{}, view, 16);
+  const Picture other = draw_picture(geometry, draw_states, twist, Checker{}, view, 16);
   CHECK(other.id == picture.id);
   CHECK(std::equal(other.color.begin(), other.color.end(), picture.color.begin(),
                    [](Vec3f a, Vec3f b) { return a.x == b.x && a.y == b.y && a.z == b.z; }));

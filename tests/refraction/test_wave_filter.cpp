@@ -9,6 +9,7 @@
 #include "core/isa.h"
 #include "core/thread_pool.h"
 #include "shading/environment/build.h"
+#include "shading/sky.h"
 #include "water/rough_mirror.h"
 #include "refraction/renderer.h"
 #include "scene/scene.h"
@@ -158,12 +159,12 @@ TEST_CASE("waves: what rough water mirrors is the mean over its slopes", "[waves
       for (const double elevation : {0.03, 0.08, 0.2, 0.5, 1.0, 1.5}) {
         for (const double sigma : {0.01, 0.03, 0.1}) {
           const double hidden = 2 * sigma * sigma;
-          ExactRay<float> at = ray_at_water(elevation, 0.01, -0.02, hidden, displaced);
+          const ExactRay<float> at = ray_at_water(elevation, 0.01, -0.02, hidden, displaced);
           const Mirrored want = mean_over_slopes(sky, at, displaced, 0.01, -0.02, hidden);
-          const Vec3f seen = mirror_roughly<float>(sky, body, displaced, at.reflected, at);
-          const double r = static_cast<double>(at.reflectance);
-          const double got[3] = {r * static_cast<double>(seen.x), r * static_cast<double>(seen.y),
-                                 r * static_cast<double>(seen.z)};
+          const RoughMirror<float> mirror = mirror_roughly<float>(SkyView{sky}, body, displaced, at.reflected, at);
+          const double r = static_cast<double>(mirror.reflectance);
+          const double got[3] = {r * static_cast<double>(mirror.radiance.x), r * static_cast<double>(mirror.radiance.y),
+                                 r * static_cast<double>(mirror.radiance.z)};
           CAPTURE(displaced, to_sun.y, elevation, sigma, r, want.reflectance, got[0], want.light[0], got[2],
                   want.light[2]);
           const double bound = sigma < 0.05 ? 0.05 : displaced ? 0.15 : 0.08;
@@ -199,12 +200,12 @@ TEST_CASE("waves: rough water mirrors an environment by its lobes", "[waves]") {
   for (const double elevation : {0.03, 0.1, 0.3, 0.6, 1.0, 1.5}) {
     for (const double sigma : {0.01, 0.03, 0.1}) {
       const double hidden = 2 * sigma * sigma;
-      ExactRay<float> at = ray_at_water(elevation, 0.01, -0.02, hidden, false);
+      const ExactRay<float> at = ray_at_water(elevation, 0.01, -0.02, hidden, false);
       const Mirrored want = mean_over_slopes(sky, at, false, 0.01, -0.02, hidden);
-      const Vec3f seen = mirror_roughly<float>(sky, body, false, at.reflected, at);
-      const double got = static_cast<double>(at.reflectance) * static_cast<double>(seen.z);
-      CAPTURE(elevation, sigma, at.reflectance, want.reflectance, got, want.light[2]);
-      CHECK(static_cast<double>(at.reflectance) == Approx(want.reflectance).epsilon(0.08));
+      const RoughMirror<float> mirror = mirror_roughly<float>(SkyView{sky}, body, false, at.reflected, at);
+      const double got = static_cast<double>(mirror.reflectance) * static_cast<double>(mirror.radiance.z);
+      CAPTURE(elevation, sigma, mirror.reflectance, want.reflectance, got, want.light[2]);
+      CHECK(static_cast<double>(mirror.reflectance) == Approx(want.reflectance).epsilon(0.08));
       CHECK(got == Approx(want.light[2]).epsilon(sigma < 0.05 ? 0.07 : 0.17));
     }
   }
@@ -213,12 +214,11 @@ TEST_CASE("waves: rough water mirrors an environment by its lobes", "[waves]") {
 TEST_CASE("waves: without hidden slopes nothing changes", "[waves]") {
   WaterBody body;
   const Background sky = clear_day({0.41f, 0.82f, 0.41f});
-  ExactRay<float> at = ray_at_water(0.3, 0.05, 0.02, 0.0, false);
-  const float reflectance = at.reflectance;
-  const Vec3f seen = mirror_roughly<float>(sky, body, false, at.reflected, at);
+  const ExactRay<float> at = ray_at_water(0.3, 0.05, 0.02, 0.0, false);
+  const RoughMirror<float> mirror = mirror_roughly<float>(SkyView{sky}, body, false, at.reflected, at);
   const Vec3f sharp = background_radiance<float>(sky, at.reflected);
-  CHECK(at.reflectance == reflectance);
-  CHECK((seen.x == sharp.x && seen.y == sharp.y && seen.z == sharp.z));
+  CHECK(mirror.reflectance == at.reflectance);
+  CHECK((mirror.radiance.x == sharp.x && mirror.radiance.y == sharp.y && mirror.radiance.z == sharp.z));
 }
 
 TEST_CASE("waves: far water is the mean of its waves, without their noise", "[waves]") {

@@ -9,8 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "raster/geometry_view.h"
-#include "raster/resolve.h"
+#include "shading/surface.h"
 #include "shading/textures/sample.h"
 
 using namespace shoal;
@@ -291,8 +290,6 @@ TEST_CASE("anisotropic: any coordinate and derivative is safe") {
 
 TEST_CASE("anisotropic: alpha cut-outs and every map of a material read it") {
   const Texture t = checker(64, 4);
-  Materials materials;
-  materials.textures.push_back(t);
   Material m;
   m.base_color_texture = m.normal.texture = m.occlusion.texture = m.emission.texture = m.metallic_roughness.texture = 0;
   m.set_anisotropy(16);
@@ -302,7 +299,7 @@ TEST_CASE("anisotropic: alpha cut-outs and every map of a material read it") {
   // Along one row of squares, thin: the square's alpha is kept only by the anisotropic sampler.
   const Pixel p = ellipse(t, 12, 1, std::numbers::pi / 4, 0);
   const Vec2f uv = {2.0f / 64, 2.0f / 64};
-  const float kept = surface_alpha<float>(m, materials, uv, p.dx, p.dy, 1.0f, true);
+  const float kept = surface_alpha<float>(m, &t, uv, p.dx, p.dy, 1.0f, true);
   m.set_anisotropy(1);
-  CHECK(kept > surface_alpha<float>(m, materials, uv, p.dx, p.dy, 1.0f, true) + 0.2f);
+  CHECK(kept > surface_alpha<float>(m, &t, uv, p.dx, p.dy, 1.0f, true) + 0.2f);
 }

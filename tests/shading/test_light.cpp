@@ -199,8 +199,7 @@ TEST_CASE("no direction gives NaN or a negative colour") {
 
 TEST_CASE("a surface from its material: factors multiply, double-sided normals turn, opaque ignores alpha") {
   const std::uint8_t half[4] = {188, 0, 255, 51};
-  Materials materials;
-  materials.textures.push_back(make_texture_rgba8(1, 1, half, true));
+  const Texture texture = make_texture_rgba8(1, 1, half, true), *textures = &texture;
   Material m;
   m.base_color = {0.5f, 1, 0.25f, 0.5f};
   m.base_color_texture = 0;
@@ -208,7 +207,7 @@ TEST_CASE("a surface from its material: factors multiply, double-sided normals t
   m.roughness = 0.75f;
   m.emissive = {1, 2, 3};
   const auto make = [&] {
-    return make_surface<float>(m, materials, {1, 2, 3}, {0, 2, 0}, {0, 0}, {0, 0}, {0, 0}, {0.5f, 1, 1, 0.5f},
+    return make_surface<float>(m, textures, {1, 2, 3}, {0, 2, 0}, {0, 0}, {0, 0}, {0, 0}, {0.5f, 1, 1, 0.5f},
                                {0, -1, 0}, true);
   };
   SurfaceSample<float> s = make();
@@ -224,30 +223,5 @@ TEST_CASE("a surface from its material: factors multiply, double-sided normals t
   s = make();
   CHECK(s.normal_world.y == -1.0f);
   CHECK(s.alpha == Approx(0.25 * 0.2).epsilon(1e-4));
-  CHECK(surface_alpha<float>(m, materials, {0, 0}, {0, 0}, {0, 0}, 0.5f, true) == s.alpha);
-}
-
-TEST_CASE("the G-buffer keeps what a lane wrote and leaves the others") {
-  GBufferBlock block{};
-  SurfaceSample<WideF> s;
-  const auto all = [](float v) { return Vec3<WideF>{WideF(v), WideF(v + 1), WideF(v + 2)}; };
-  s.position_world = all(1);
-  s.normal_world = all(10);
-  s.base_color = all(20);
-  s.alpha = WideF(30.0f);
-  s.metallic = WideF(31.0f);
-  s.roughness = WideF(32.0f);
-  s.emissive = all(40);
-  store_surface(block, s, mask_from_bits(0x8001));
-  const SurfaceSample<WideF> back = load_surface(block);
-  for (int i = 0; i < 16; ++i) {
-    const float on = i == 0 || i == 15 ? 1.0f : 0.0f;
-    CHECK(extract(back.position_world.z, i) == 3 * on);
-    CHECK(extract(back.normal_world.y, i) == 11 * on);
-    CHECK(extract(back.base_color.x, i) == 20 * on);
-    CHECK(extract(back.alpha, i) == 30 * on);
-    CHECK(extract(back.metallic, i) == 31 * on);
-    CHECK(extract(back.roughness, i) == 32 * on);
-    CHECK(extract(back.emissive.z, i) == 42 * on);
-  }
+  CHECK(surface_alpha<float>(m, textures, {0, 0}, {0, 0}, {0, 0}, 0.5f, true) == s.alpha);
 }

@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "shading/light.h"
-#include "tests/raster/raster_driver.h"
 
 using namespace shoal;
 
@@ -54,7 +54,7 @@ PixelAttributes<WideF> attributes() {
 }
 
 struct Fixture {
-  Materials materials;
+  std::vector<Texture> textures;
   Material material;
   Vec4f tangent{1, 0, 0, 1};
   Vec2f uv1{0, 0};
@@ -65,14 +65,14 @@ struct Fixture {
   Fixture() { view.tangents = &tangent, view.uvs1 = &uv1; }
   SurfaceSample<WideF> run() {
     const WideM all = mask_from_bits(0xFFFFu);
-    SurfaceSample<WideF> s = make_surface<WideF>(material, materials, a.position_world, a.normal_world, a.uv, a.duv_dx,
-                                                 a.duv_dy, a.color, eye, all);
-    apply_maps(view, material, materials, a, eye, all, s);
+    SurfaceSample<WideF> s = make_surface<WideF>(material, textures.data(), a.position_world, a.normal_world, a.uv,
+                                                 a.duv_dx, a.duv_dy, a.color, eye, all);
+    apply_maps(view, material, textures.data(), a, eye, all, s);
     return s;
   }
   std::int32_t add(Texture t) {
-    materials.textures.push_back(std::move(t));
-    return static_cast<std::int32_t>(materials.textures.size() - 1);
+    textures.push_back(std::move(t));
+    return static_cast<std::int32_t>(textures.size() - 1);
   }
 };
 
@@ -105,18 +105,18 @@ TEST_CASE("a flat normal map and one that is no direction change nothing; x is a
   Fixture f;
   f.material.normal.texture = f.add(one_texel(0.5f, 0.5f, 1.0f));
   CHECK(lane(f.run().normal_world, 3).y == 1.0f);
-  f.materials.textures[0] = one_texel(0.5f, 0.5f, 0.5f);
+  f.textures[0] = one_texel(0.5f, 0.5f, 0.5f);
   CHECK(lane(f.run().normal_world, 3).y == 1.0f);
-  f.materials.textures[0] = one_texel(std::uint8_t{128}, 128, 255);
+  f.textures[0] = one_texel(std::uint8_t{128}, 128, 255);
   CHECK(lane(f.run().normal_world, 3).y == Approx(1).margin(4e-5));
-  f.materials.textures[0] = one_texel(1.0f, 0.5f, 0.5f);
+  f.textures[0] = one_texel(1.0f, 0.5f, 0.5f);
   CHECK(lane(f.run().normal_world, 0).x == Approx(1).margin(1e-6));
-  f.materials.textures[0] = one_texel(0.5f, 1.0f, 0.5f);
+  f.textures[0] = one_texel(0.5f, 1.0f, 0.5f);
   CHECK(lane(f.run().normal_world, 0).z == Approx(-1).margin(1e-6));  // cross(+y, +x)
   f.a.handedness = WideF(-1.0f);
   CHECK(lane(f.run().normal_world, 0).z == Approx(1).margin(1e-6));
   // Steeper by the scale.
-  f.materials.textures[0] = one_texel(0.75f, 0.5f, 1.0f);
+  f.textures[0] = one_texel(0.75f, 0.5f, 1.0f);
   f.material.normal_scale = 2;
   CHECK(lane(f.run().normal_world, 0).x == Approx(std::sqrt(0.5)).epsilon(1e-6));
 }
@@ -175,24 +175,23 @@ TEST_CASE("seen from behind, the whole tangent frame turns: a double-sided bump 
   mesh.positions_world = positions, mesh.normals_world = normals, mesh.uvs = uvs, mesh.uvs1 = uvs1;
   mesh.tangents_world = tangents, mesh.indices = indices, mesh.vertex_count = 3, mesh.index_count = 3;
   append_mesh(g, mesh);
-  Materials materials;
-  materials.materials.resize(1);
-  Material& m = materials.materials[0];
+  Material m;
   m.double_sided = true;
-  materials.textures.push_back(one_texel(0.75f, 0.625f, 1.0f));
+  const Texture texture = one_texel(0.75f, 0.625f, 1.0f);
+  const DrawState state{.double_sided = true};
   m.normal.texture = 0;
   for (const float side : {1.0f, -1.0f}) {
     const Ray<WideF> ray{wide({0, side, 0}), wide({0, -side, 0})};
     RayDifferential<WideF> differential{};
     const WideM all = mask_from_bits(0xFFFFu);
     PixelAttributes<WideF> a;
-    const GeometryView view = shoal_test::view_of(g, materials);
+    const GeometryView view = view_of(g, &state);
     resolve_attributes(view, ray, differential, WideI(0), all, a);
     CHECK(extract(a.uv1.x, 7) == Approx(1));
     CHECK(extract(a.uv1.y, 7) == Approx(2));
-    SurfaceSample<WideF> s = make_surface<WideF>(m, materials, a.position_world, a.normal_world, a.uv, a.duv_dx,
+    SurfaceSample<WideF> s = make_surface<WideF>(m, &texture, a.position_world, a.normal_world, a.uv, a.duv_dx,
                                                  a.duv_dy, a.color, wide({0, side, 0}), all);
-    apply_maps(view, m, materials, a, wide({0, side, 0}), all, s);
+    apply_maps(view, m, &texture, a, wide({0, side, 0}), all, s);
     const Vec3f n = lane(s.normal_world, 7);
     const double length = std::sqrt(0.25 + 0.0625 + 1);
     CHECK(n.x == Approx(side * 0.5 / length).epsilon(1e-5));

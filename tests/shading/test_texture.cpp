@@ -11,8 +11,8 @@
 
 #include "core/error.h"
 #include "shading/post.h"
-#include "shading/textures/sample.h"
 #include "shading/srgb.h"
+#include "shading/textures/sample.h"
 #include "shading/textures/texture.h"
 
 using namespace shoal;

@@ -1,11 +1,11 @@
 #!/bin/bash
-# Who includes whom: core <- raster; core <- water; raster, water <- scene; all those <- refraction <- compare <- app.
-# Third-party headers stay at the edges, intrinsics in core/wide.
+# Which room includes which: core <- raster <- shading; core <- water; all four <- scene <- trace; all of these
+# <- refraction <- compare <- app. Third-party headers stay at the edges, intrinsics in core/wide.
 set -uo pipefail
 
 # Lines "file header kind" of every include, kind q (quoted) or s (system).
 includes() {
-  find core raster water scene refraction compare app \( -name '*.h' -o -name '*.cpp' -o -name '*.def' \) -print0 |
+  find core raster shading water scene trace refraction compare app \( -name '*.h' -o -name '*.cpp' -o -name '*.def' \) -print0 |
     xargs -0 awk '/^[ \t]*#[ \t]*include[ \t]*["<]/ {
       kind = /</ ? "s" : "q"
       sub(/^[^"<]*["<]/, "")
@@ -14,12 +14,14 @@ includes() {
     }' | LC_ALL=C sort
 }
 
-declare -A sees=(
-  [core]="core" [raster]="core raster" [water]="core water" [scene]="core raster water scene"
-  [refraction]="core raster water scene refraction" [compare]="core raster water scene refraction compare"
-  [app]="core raster water scene refraction compare app"
-)
-file_reader='^scene/(gltf|images|export_glb|environment)[a-z_]*\.(h|cpp)$'
+declare -A sees=([core]="core" [raster]="core raster" [shading]="core raster shading" [water]="core water")
+sees[scene]="core raster shading water scene"
+sees[trace]="${sees[scene]} trace"
+sees[refraction]="${sees[trace]} refraction"
+sees[compare]="${sees[refraction]} compare"
+sees[app]="${sees[compare]} app"
+# The part of scene/ that reads and writes files.
+file_reader='^scene/(gltf|images)/'
 status=0 seen=0
 complain() { echo "$*"; status=1; }
 

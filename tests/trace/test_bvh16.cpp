@@ -8,7 +8,7 @@
 #include "raster/geometry_view.h"
 #include "refraction/narrow/layer_edges.h"
 #include "trace/nearest_hit.h"
-#include "refraction_oracle.h"
+#include "tests/refraction/refraction_oracle.h"
 
 using namespace shoal_test;
 

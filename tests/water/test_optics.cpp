@@ -1,4 +1,4 @@
-// Snell, Fresnel and Beer-Lambert against double precision, by angles instead of the code's algebra.
+// Snell and Fresnel against double precision, by angles instead of the code's algebra.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -138,22 +138,6 @@ TEST_CASE("Schlick's approximation takes the thin side's cosine", "[water]") {
   }
   CHECK(fresnel_schlick(1.0f, 1.333f) == Approx(0.020372).epsilon(1e-4));
   CHECK(fresnel_schlick(0.3f, 1.333f) == 1.0f);
-}
-
-TEST_CASE("transmittance is the exponential", "[water]") {
-  CHECK(transmittance(0.35f, 0.0f) == 1.0f);
-  for (const float absorption : {0.0f, 0.03f, 0.07f, 0.35f, 4.0f}) {
-    for (const float path : {1e-4f, 0.5f, 2.0f, 17.0f}) {
-      const double exponent = static_cast<double>(absorption) * static_cast<double>(path);
-      const double error = std::fabs(static_cast<double>(transmittance(absorption, path)) / std::exp(-exponent) - 1.0);
-      CAPTURE(absorption, path, error);
-      CHECK(error < 2e-7 * (1.0 + exponent));
-    }
-  }
-  const Vec3f clear = transmittance(Vec3f{0.35f, 0.07f, 0.03f}, 10.0f);
-  CHECK(clear.x == Approx(std::exp(-3.5)));
-  CHECK(clear.y == Approx(std::exp(-0.7)));
-  CHECK(clear.z == Approx(std::exp(-0.3)));
 }
 
 TEST_CASE("lanes give the bits of scalars", "[water]") {
