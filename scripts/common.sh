@@ -28,3 +28,14 @@ build() {
   fi
   cmake --build --preset "$preset" -j "$(jobs)" ${@:+--target "$@"}
 }
+
+# machine FOLDER: what was measured on, as lines of Markdown; FOLDER is of a build, for its compiler.
+machine() {
+  local compiler
+  compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$1/CMakeCache.txt")
+  printf -- '- CPU: %s, %s of them\n' "$(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | head -n 1)" "$(nproc)"
+  printf -- '- memory: %s\n' "$(awk '/^MemTotal/ { printf "%.1f GiB", $2 / 1048576 }' /proc/meminfo)"
+  printf -- '- system: %s\n' "$(uname -srm)"
+  printf -- '- compiler: %s\n' "$("${compiler:-c++}" --version | head -n 1)"
+  printf -- '- load average at the start: %s\n' "$(cut -d ' ' -f 1-3 /proc/loadavg)"
+}
