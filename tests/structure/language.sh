@@ -19,6 +19,9 @@ any='.'
 no_chunks='^(core|raster|shading|water|trace|refraction|compare|bench)/|^scene/(scene|animation)\.h|^scene/(build|procedural)/|^tests/(raster|shading|trace|refraction|invariance)/'
 pipeline='^(raster|shading|trace|refraction|bench)/|^tests/(raster|shading|trace|refraction)/'
 
+# Not shading/environment/, where masking is the term for facets that hide others.
+alpha='^(raster|trace|refraction|bench)/|^shading/(material|surface|textures|shadow)|^tests/(raster|trace|refraction)/'
+
 identifiers="
 $any :: TriangleTree :: TriangleTree :: Bvh16
 $any :: Beams? :: Beam :: PacketFrustum
@@ -30,13 +33,13 @@ $any :: mirrored_pass :: mirrored_pass :: planar_reflection_pass
 $any :: kTruth|kWhole|kReal :: kTruth :: kBool
 $no_chunks :: Chunks?|chunks?|[a-z_]*_chunks?|chunks?_[a-z_]+ :: chunk_outside :: meshlet_outside
 $pipeline :: items?|BinItem|[a-z_]*per_item :: item :: work_item
-$pipeline :: masked|is_masked|masked_[a-z]+ :: masked :: alpha_tested
+$alpha :: masked|is_masked|masked_[a-z]+ :: masked :: alpha_tested
 "
 
 # The same, but of a member and its use, not of every variable of that name.
 members="
 ^(raster|shading|trace|refraction)/ :: (float>?|WideF|F) keep\b|(layer|over|sum|out|blend|blended)\.keep\b :: over.keep :: over.transmittance
-^(refraction|app)/ :: (\.|->|(char ?\*|float|double) )(standard|least|most)\b :: option.least :: option.min
+^(refraction|app)/ :: option[a-z_]*(\.|->)(standard|least|most)\b|char ?\* ?standard\b|float least, most\b :: option.least :: option.min
 "
 
 phrases="
@@ -50,7 +53,7 @@ $any :: [Tt]he truth\b :: the truth :: the reference
 $any :: shad(es?|ing) (before|after)\b :: shades before :: image-space method
 $any :: mirrored pass :: the mirrored pass :: the planar reflection pass
 $any :: masked materials? :: a masked material :: an alpha-tested material
-$any :: (//|\*|\.|\|) (Of|On) (a|an|the) [a-z]+(('s)|s') :: // Of a body's :: // The bounds of a body
+$any :: (//|\.) Of (a|an|the) [a-z]+(('s)|s')\b :: // Of a body's :: // The bounds of a body
 $any :: What (a|the) pixel shows[.,:;]?\$ :: // What a pixel shows. :: The primitive that a pixel shows.
 ^README|^docs/([^g]|getting|decisions|tutorials) :: \b[Cc]hunks?\b :: a chunk :: a meshlet
 ^README|^docs/ :: the method has come|\b[Tt]ruth\b :: until the method has come :: the reference
