@@ -24,6 +24,13 @@ equals "FLIP over its goal, and a median" 1 "$(grep -c '^| lake | right | 0 | FL
 equals "a fifth of steel-2024's" 1 "$(grep -c "displaced | left | 0.05 | wrong object 1.00 %, over a fifth of steel-2024's 4.00 % |" tables.md)"
 equals "the lowest" 1 "$(grep -c 'displaced | left | 0.15 | FLIP 0.0390, none 0.0370; wrong object 0.50 %, none 0.10 % |' tables.md)"
 equals "a cell of two cameras" 1 "$(grep -c '^| two-phase | 0.0100 / 0.0101\\\* | 0.05 / 0.05 |$' tables.md)"
+passes "a summary" "$scripts/quality_tables" --summary rows.csv 64x48
+equals "means of the plane's rows" 1 "$(grep -c '^| steel-2024 | 2 | 0.014[78] | 1.00 |$' .out)"
+equals "rows that miss a goal" 3 "$(grep -c '^- `lake' .out)"
+passes "its chart" "$scripts/quality_tables" --chart rows.csv
+"$scripts/bar_chart" chart.svg "made up" <.out || fail "the chart is drawn"
+equals "two groups of one bar, paper and legend" 4 "$(grep -c '^<rect' chart.svg)"
+echo name,value | "$scripts/bar_chart" none.svg "no line" 2>.err && fail "a chart of nothing is refused"
 printf 'before\n<!-- tables: scripts/quality --page -->\nold\n<!-- end of tables -->\nafter\n' >page.md
 passes "into a page" "$scripts/quality_tables" --into page.md tables.md
 equals "the page" "before after" "$(sed -n '1p;$p' page.md | xargs)"
@@ -41,10 +48,10 @@ passes "the same rows" cmp q/rows.csv first.csv
 
 programs=$(dirname "$shoal")
 if [ -x "$programs/frame_changes" ] && [ -x "$programs/compose_sheet" ]; then
-  # The truth beside itself, so that every step is the same.
+  # The reference beside itself, so that every step is the same.
   "$scripts/animation" --scene box --method ray-traced --size 48x32 --frames 3 --step 0.1 --programs "$programs" -o "$work/a" \
     -- --quiet --set surface=perlin --set slope=0.1 >.out 2>.err
-  equals "a method that is the truth" 0 "$?"
+  equals "a method that is the reference" 0 "$?"
   equals "two steps" 3 "$(wc -l <a/changes.csv)"
   equals "of equal change" "1.0000 1.0000" "$(sed 1d a/changes.csv | cut -d, -f 4 | xargs)"
   equals "that is some" yes "$(awk -F, 'NR > 1 && $2 <= 0 { none = 1 } END { print none ? "no" : "yes" }' a/changes.csv)"
