@@ -142,7 +142,9 @@ void check_same(const Scene& a, const Scene& b) {
     CHECK(x.name == y.name);
     CHECK(x.parent == y.parent);
     // By value: a product with the parent's transform makes 0 of -0.
-    CHECK(std::equal(&x.world_from_local.m[0][0], &x.world_from_local.m[0][0] + 16, &y.world_from_local.m[0][0]));
+    for (int c = 0; c < 4; ++c) {
+      for (int r = 0; r < 4; ++r) CHECK(x.world_from_local[c][r] == y.world_from_local[c][r]);
+    }
     CHECK(x.mesh == y.mesh);
     CHECK(x.camera == y.camera);
     CHECK(x.light == y.light);

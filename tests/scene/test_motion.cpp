@@ -47,7 +47,7 @@ Scene bent_bar() {
   Skin skin;
   skin.joints = {1, 2};
   skin.joint_from_mesh.assign(2, kIdentity4);
-  skin.joint_from_mesh[1].m[1][3] = -1;
+  skin.joint_from_mesh[1][3].y = -1;
   scene.skins.push_back(skin);
   Channel bend;
   bend.node = 2;
@@ -143,9 +143,7 @@ TEST_CASE("motion: what was built and what was moved there are the same", "[moti
   Scene moving = lone_triangle(), still = lone_triangle();
   moving.animations.push_back({"", {channel(0, ChannelPath::kTranslation, {0, 1}, {0, 0, 0, 4, 8, -2})}});
   still.locals.clear();
-  still.nodes[0].world_from_local.m[0][3] = 1;
-  still.nodes[0].world_from_local.m[1][3] = 2;
-  still.nodes[0].world_from_local.m[2][3] = -0.5f;
+  still.nodes[0].world_from_local = translation({1, 2, -0.5f});
   RenderScene render = build_render_scene(moving);
   update_render_scene(render, 0.25);
   CHECK(same_geometry(render.geometry, build_render_scene(still).geometry));
