@@ -1,5 +1,5 @@
-// Matrices of host-side code: places of nodes, of joints and of what stands on them. GLM's types, column-major: m[column]
-// is a column vector, and a point transforms as m * (x, y, z, 1).
+// Matrices of host-side code: places of nodes, of joints and of what stands on them. GLM's types, column-major:
+// m[column] is a column vector, and a point transforms as m * (x, y, z, 1).
 //
 // GLM's own matrix product and inverse add in another order than the functions here and in scene/build/transform.h, so
 // they would change pixels (tests/core/test_glm.cpp): a call of them in namespace shoal does not compile.
@@ -12,8 +12,8 @@
 
 namespace shoal {
 
-using Mat4 = glm::mat4;        // world_from_local, joint_from_mesh
-using Affine = glm::dmat4x3;   // the same in double, without the last row, which is 0 0 0 1
+using Mat4 = glm::mat4;       // world_from_local, joint_from_mesh
+using Affine = glm::dmat4x3;  // the same in double, without the last row, which is 0 0 0 1
 
 inline constexpr Mat4 kIdentity4{1.0f};
 inline constexpr Affine kAffineIdentity{1.0};

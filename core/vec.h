@@ -2,8 +2,8 @@
 //
 // The types are GLM's, for one number and for lanes alike (docs/decisions/0010-glm-vectors.md). The sums, differences,
 // products and quotients of components are GLM's operators; every other function whose bits reach a pixel is written
-// here or in core/vec_lanes.h, in an order of operations that is part of the determinism contract. The operations of GLM
-// that may be used are those of tests/core/test_glm.cpp. This header and core/matrix.h alone include GLM.
+// here or in core/vec_lanes.h, in an order of operations that is part of the determinism contract. The operations of
+// GLM that may be used are those of tests/core/test_glm.cpp. This header and core/matrix.h alone include GLM.
 #pragma once
 
 #include "core/wide/isa_select.h"

@@ -72,9 +72,7 @@ inline Affine local_affine(const LocalTransform& local) {
 }
 
 // The first three rows in double: exact.
-inline Affine widen(const Mat4& m) {
-  return {glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2]), glm::dvec3(m[3])};
-}
+inline Affine widen(const Mat4& m) { return {glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2]), glm::dvec3(m[3])}; }
 
 // Each component rounded to float once; the last row is 0 0 0 1.
 inline Mat4 narrow(const Affine& m) {

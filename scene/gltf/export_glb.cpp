@@ -8,10 +8,10 @@
 #include <span>
 
 #include "core/error.h"
+#include "scene/build/transform.h"
 #include "scene/gltf/export_glb_file.h"
 #include "scene/gltf/export_glb_water.h"
 #include "scene/images/images.h"
-#include "scene/build/transform.h"
 
 namespace shoal {
 namespace {

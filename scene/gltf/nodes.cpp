@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/gltf/internal.h"
 #include "scene/build/transform.h"
+#include "scene/gltf/internal.h"
 
 namespace shoal::gltf {
 namespace {

@@ -242,8 +242,7 @@ TEST_CASE("gltf: what moves comes back from a .glb as it was", "[gltf][export]")
     CHECK(back.nodes[n].morph_weights == scene.nodes[n].morph_weights);
     for (int i = 0; i < 4; ++i) CHECK(back.locals[n].rotation[i] == scene.locals[n].rotation[i]);
     for (int c = 0; c < 4; ++c) {
-      for (int r = 0; r < 3; ++r)
-        CHECK(back.nodes[n].world_from_local[c][r] == scene.nodes[n].world_from_local[c][r]);
+      for (int r = 0; r < 3; ++r) CHECK(back.nodes[n].world_from_local[c][r] == scene.nodes[n].world_from_local[c][r]);
     }
   }
   REQUIRE(back.meshes.size() == 2);

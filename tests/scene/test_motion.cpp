@@ -93,7 +93,7 @@ bool same_geometry(const Geometry& a, const Geometry& b) {
   for (std::size_t c = 0; meshlets && c < a.meshlets.size(); ++c) {
     const Meshlet &x = a.meshlets[c], &y = b.meshlets[c];
     meshlets = std::memcmp(&x.bounds_min_world, &y.bounds_min_world, 12) == 0 &&
-             std::memcmp(&x.bounds_max_world, &y.bounds_max_world, 12) == 0 && x.longest_edge_m == y.longest_edge_m;
+               std::memcmp(&x.bounds_max_world, &y.bounds_max_world, 12) == 0 && x.longest_edge_m == y.longest_edge_m;
   }
   return meshlets && same_bytes(a.vertices, b.vertices) && same_bytes(a.x_world, b.x_world) &&
          same_bytes(a.y_world, b.y_world) && same_bytes(a.z_world, b.z_world) && same_bytes(a.triangles, b.triangles) &&
