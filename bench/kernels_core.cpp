@@ -1,5 +1,6 @@
-// core/math.h over arrays, one copy an ISA.
+// core/math.h and vectors of lanes over arrays, one copy an ISA.
 #include "bench/kernels.h"
+#include "bench/vector_work.h"
 #include "core/math.h"
 
 namespace shoal::bench::inline SHOAL_ISA_NS {
@@ -26,13 +27,25 @@ SHOAL_BENCH_MATH(run_exp2, det_exp2(x))
 SHOAL_BENCH_MATH(run_exp, det_exp(x))
 SHOAL_BENCH_MATH(run_log2, det_log2(x))
 SHOAL_BENCH_MATH(run_pow, det_pow(x, WideF(2.2f)))
+SHOAL_BENCH_MATH(run_glm_vectors, vector_work<Vec3<WideF>>(x))
+SHOAL_BENCH_MATH(run_plain_vectors, vector_work<PlainVec3>(x))
 #undef SHOAL_BENCH_MATH
 
 constexpr MathKernel kMath[] = {
-    {"copy", -1, 1, &run_copy},   {"divide", 1, 2, &run_divide},      {"sqrt", 0, 4, &run_sqrt},
-    {"sin", -3, 3, &run_sin},     {"sin_far", -1e6f, 1e6f, &run_sin}, {"tan", -1.5f, 1.5f, &run_tan},
-    {"atan2", -2, 2, &run_atan2}, {"acos", -1, 1, &run_acos},         {"exp2", -20, 20, &run_exp2},
-    {"exp", -20, 20, &run_exp},   {"log2", 0.01f, 100, &run_log2},    {"pow", 0.01f, 4, &run_pow},
+    {"copy", -1, 1, &run_copy},
+    {"divide", 1, 2, &run_divide},
+    {"sqrt", 0, 4, &run_sqrt},
+    {"sin", -3, 3, &run_sin},
+    {"sin_far", -1e6f, 1e6f, &run_sin},
+    {"tan", -1.5f, 1.5f, &run_tan},
+    {"atan2", -2, 2, &run_atan2},
+    {"acos", -1, 1, &run_acos},
+    {"exp2", -20, 20, &run_exp2},
+    {"exp", -20, 20, &run_exp},
+    {"log2", 0.01f, 100, &run_log2},
+    {"pow", 0.01f, 4, &run_pow},
+    {"glm_vectors", -1, 1, &run_glm_vectors},
+    {"plain_vectors", -1, 1, &run_plain_vectors},
 };
 
 }  // namespace

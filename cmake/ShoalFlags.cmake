@@ -38,11 +38,14 @@ if(SHOAL_FUZZ)
   target_compile_options(shoal_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
+# GLM's conversions that lose digits or components (double to float, vec4 to vec3) are written out: Vec3f(v).
+target_compile_definitions(shoal_flags INTERFACE GLM_FORCE_EXPLICIT_CTOR)
+
 # Headers of the host that a cross-compiler may see: header-only libraries, one symbolic link each, nothing else of
 # /usr/include.
 if(CMAKE_CROSSCOMPILING)
   file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/host_headers)
-  foreach(header xxhash.h xxh3.h catch2)
+  foreach(header xxhash.h xxh3.h glm catch2)
     if(EXISTS /usr/include/${header})
       file(CREATE_LINK /usr/include/${header} ${PROJECT_BINARY_DIR}/host_headers/${header} SYMBOLIC)
     endif()

@@ -1,83 +1,41 @@
-// Small vectors and a 4 x 4 matrix, templated on the lane type (float, WideF, or double in oracles).
+// Small vectors, templated on the lane type: float, WideF, or double in oracles.
 //
-// The types are plain aggregates in namespace shoal, the same in every translation unit; the functions are always
-// inlined, so no ISA's copy of them can be linked into another's code.
+// The types are GLM's, for one number and for lanes alike (docs/decisions/0010-glm-vectors.md). The sums, differences,
+// products and quotients of components are GLM's operators; every other function whose bits reach a pixel is written
+// here or in core/vec_lanes.h, in an order of operations that is part of the determinism contract. The operations of
+// GLM that may be used are those of tests/core/test_glm.cpp. This header and core/matrix.h alone include GLM.
 #pragma once
 
 #include "core/wide/isa_select.h"
 
+// In code for one instruction set GLM's operators are always inlined, as SHOAL_INLINE functions are.
+#if !defined(SHOAL_ISA_SCALAR) && !defined(GLM_FORCE_INLINE)
+#define GLM_FORCE_INLINE
+#endif
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
 namespace shoal {
 
 template <class F>
-struct Vec2 {
-  F x, y;
-};
+using Vec2 = glm::vec<2, F, glm::defaultp>;
 template <class F>
-struct Vec3 {
-  F x, y, z;
-};
+using Vec3 = glm::vec<3, F, glm::defaultp>;
 template <class F>
-struct Vec4 {
-  F x, y, z, w;
-};
-using Vec2f = Vec2<float>;
-using Vec3f = Vec3<float>;
-using Vec4f = Vec4<float>;
-using Vec3d = Vec3<double>;
+using Vec4 = glm::vec<4, F, glm::defaultp>;
+using Vec2f = glm::vec2;
+using Vec3f = glm::vec3;
+using Vec4f = glm::vec4;
+using Vec3d = glm::dvec3;
 
-// Row-major: m[row][column]; a point transforms as m * (x, y, z, 1).
-struct Mat4 {
-  float m[4][4];
-};
-inline constexpr Mat4 kIdentity4 = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
-
-template <class F>
-SHOAL_INLINE Vec2<F> operator+(Vec2<F> a, Vec2<F> b) {
-  return {a.x + b.x, a.y + b.y};
-}
-template <class F>
-SHOAL_INLINE Vec2<F> operator-(Vec2<F> a, Vec2<F> b) {
-  return {a.x - b.x, a.y - b.y};
-}
-template <class F>
-SHOAL_INLINE Vec2<F> operator*(Vec2<F> a, F s) {
-  return {a.x * s, a.y * s};
-}
-
-template <class F>
-SHOAL_INLINE Vec3<F> operator+(Vec3<F> a, Vec3<F> b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-template <class F>
-SHOAL_INLINE Vec3<F> operator-(Vec3<F> a, Vec3<F> b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-template <class F>
-SHOAL_INLINE Vec3<F> operator-(Vec3<F> a) {
-  return {-a.x, -a.y, -a.z};
-}
-// Component by component (colours).
-template <class F>
-SHOAL_INLINE Vec3<F> operator*(Vec3<F> a, Vec3<F> b) {
-  return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
-template <class F>
-SHOAL_INLINE Vec3<F> operator*(Vec3<F> a, F s) {
-  return {a.x * s, a.y * s, a.z * s};
-}
-template <class F>
-SHOAL_INLINE Vec3<F> operator*(F s, Vec3<F> a) {
-  return a * s;
-}
-template <class F>
-SHOAL_INLINE Vec3<F> operator/(Vec3<F> a, F s) {
-  return {a.x / s, a.y / s, a.z / s};
-}
-// The fixed order of these sums is part of the contract.
+// The dot product. It is summed in the order x, y, z.
 template <class F>
 SHOAL_INLINE F dot(Vec3<F> a, Vec3<F> b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
+
+// The cross product.
 template <class F>
 SHOAL_INLINE Vec3<F> cross(Vec3<F> a, Vec3<F> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -93,17 +51,10 @@ SHOAL_INLINE Vec2<F> broadcast(Vec2f v) {
   return {F(v.x), F(v.y)};
 }
 
+// GLM has a dot product of other lengths, which adds in its own order: a call of it by our name does not compile.
 template <class F>
-SHOAL_INLINE Vec3<F> transform_point(const Mat4& t, Vec3<F> p) {
-  return {((F(t.m[0][0]) * p.x + F(t.m[0][1]) * p.y) + F(t.m[0][2]) * p.z) + F(t.m[0][3]),
-          ((F(t.m[1][0]) * p.x + F(t.m[1][1]) * p.y) + F(t.m[1][2]) * p.z) + F(t.m[1][3]),
-          ((F(t.m[2][0]) * p.x + F(t.m[2][1]) * p.y) + F(t.m[2][2]) * p.z) + F(t.m[2][3])};
-}
+void dot(Vec2<F> a, Vec2<F> b) = delete;
 template <class F>
-SHOAL_INLINE Vec3<F> transform_direction(const Mat4& t, Vec3<F> p) {
-  return {(F(t.m[0][0]) * p.x + F(t.m[0][1]) * p.y) + F(t.m[0][2]) * p.z,
-          (F(t.m[1][0]) * p.x + F(t.m[1][1]) * p.y) + F(t.m[1][2]) * p.z,
-          (F(t.m[2][0]) * p.x + F(t.m[2][1]) * p.y) + F(t.m[2][2]) * p.z};
-}
+void dot(Vec4<F> a, Vec4<F> b) = delete;
 
 }  // namespace shoal

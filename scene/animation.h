@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "core/vec.h"
+#include "core/matrix.h"
 
 namespace shoal {
 
 // A node's transform under its parent, in double as files give it: T R S, or a matrix that no animation may move.
 struct LocalTransform {
-  double translation[3] = {0, 0, 0};
-  double rotation[4] = {0, 0, 0, 1};  // quaternion x y z w, any length but 0
-  double scale[3] = {1, 1, 1};
+  glm::dvec3 translation{0, 0, 0};
+  glm::dvec4 rotation{0, 0, 0, 1};  // quaternion x y z w, any length but 0
+  glm::dvec3 scale{1, 1, 1};
   bool is_matrix = false;
-  double matrix[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};  // row-major, where is_matrix
+  Affine matrix = kAffineIdentity;  // where is_matrix
 };
 
 // A skinned vertex follows its joints, not its own node.

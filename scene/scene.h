@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/vec.h"
+#include "core/matrix.h"
 #include "raster/camera.h"
 #include "raster/geometry.h"
 #include "shading/material.h"

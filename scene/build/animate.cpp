@@ -97,13 +97,13 @@ void apply(const Channel& channel, double time_s, std::vector<LocalTransform>& l
   LocalTransform& local = locals[node];
   switch (channel.path) {
     case ChannelPath::kTranslation:
-      std::copy_n(value.begin(), 3, local.translation);
+      local.translation = {value[0], value[1], value[2]};
       break;
     case ChannelPath::kRotation:
-      std::copy_n(value.begin(), 4, local.rotation);
+      local.rotation = {value[0], value[1], value[2], value[3]};
       break;
     case ChannelPath::kScale:
-      std::copy_n(value.begin(), 3, local.scale);
+      local.scale = {value[0], value[1], value[2]};
       break;
     case ChannelPath::kWeights:
       for (std::size_t i = 0; i < value.size(); ++i) pose.morph_weights[node][i] = static_cast<float>(value[i]);

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "scene/scene.h"
 #include "scene/build/transform.h"
+#include "scene/scene.h"
 
 namespace shoal {
 

@@ -26,8 +26,10 @@ inline Vec3f normalize_or_zero(Vec3f v) {
 }
 inline bool is_zero(Vec3f v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
-inline Vec3f column(const Mat4& t, int c) { return {t.m[0][c], t.m[1][c], t.m[2][c]}; }
+// The first three components of a column: an axis of the node (0 to 2) or its origin (3).
+inline Vec3f column(const Mat4& t, int c) { return Vec3f(t[c]); }
 
+// The determinant of the upper left 3 x 3 part: negative where the transform mirrors.
 inline float determinant(const Mat4& t) { return dot(column(t, 0), cross(column(t, 1), column(t, 2))); }
 
 // The inverse transpose up to a positive factor: the matrix of cofactors, times the determinant's sign.
@@ -35,7 +37,10 @@ struct NormalMatrix {
   Vec3f columns[3];
 
   explicit NormalMatrix(const Mat4& t) {
-    const Vec3f a = normalize_scale(t, 0), b = normalize_scale(t, 1), c = normalize_scale(t, 2);
+    // One common factor for all columns keeps the products of tiny or huge scales in range.
+    const float largest = largest_component(t);
+    const auto scaled = [&](int i) { return largest > 0 ? column(t, i) / largest : Vec3f{0, 0, 0}; };
+    const Vec3f a = scaled(0), b = scaled(1), c = scaled(2);
     const float sign = determinant(t) < 0 ? -1.0f : 1.0f;
     columns[0] = cross(b, c) * sign;
     columns[1] = cross(c, a) * sign;
@@ -47,13 +52,12 @@ struct NormalMatrix {
   }
 
  private:
-  // One common factor for all columns keeps the products of tiny or huge scales in range.
-  static Vec3f normalize_scale(const Mat4& t, int c) {
+  static float largest_component(const Mat4& t) {
     float largest = 0;
-    for (int row = 0; row < 3; ++row) {
-      for (int col = 0; col < 3; ++col) largest = std::max(largest, std::fabs(t.m[row][col]));
+    for (int i = 0; i < 3; ++i) {
+      largest = std::max({largest, std::fabs(t[i].x), std::fabs(t[i].y), std::fabs(t[i].z)});
     }
-    return largest > 0 ? column(t, c) / largest : Vec3f{0, 0, 0};
+    return largest;
   }
 };
 

@@ -81,14 +81,16 @@ class Deformer {
   }
   // The weighted sum of the vertex's joint matrices.
   Mat4 blended(std::size_t v) const {
-    Mat4 sum = {{{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 1}}};
+    Mat4 sum = from_rows({0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0});
     const std::size_t first = v * mesh_.influences;
     for (std::size_t k = first; k < first + mesh_.influences; ++k) {
       const float weight = mesh_.weights[k];
       if (weight == 0) continue;
       const Mat4& joint = joints_[mesh_.joints[k]];
-      for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 4; ++c) sum.m[r][c] = sum.m[r][c] + joint.m[r][c] * weight;
+      for (int c = 0; c < 4; ++c) {
+        sum[c].x = sum[c].x + joint[c].x * weight;
+        sum[c].y = sum[c].y + joint[c].y * weight;
+        sum[c].z = sum[c].z + joint[c].z * weight;
       }
     }
     return sum;

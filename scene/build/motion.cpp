@@ -48,7 +48,8 @@ void turn_triangles(Geometry& g, MovingDrawable& d) {
   d.mirrored = !d.mirrored;
 }
 
-void update_meshlet(const MovingDrawable& d, const Deformer& deformer, Meshlet& meshlet, Geometry& g, const Scene& scene) {
+void update_meshlet(const MovingDrawable& d, const Deformer& deformer, Meshlet& meshlet, Geometry& g,
+                    const Scene& scene) {
   const std::size_t padded = (std::size_t{meshlet.vertex_count} + 15) & ~std::size_t{15};
   for (std::size_t i = meshlet.first_vertex; i < meshlet.first_vertex + padded; ++i) {
     VertexRecord& vertex = g.vertices[i];
@@ -99,7 +100,8 @@ void update_geometry(RenderScene& out, const Pose& pose, ThreadPool* pool) {
 
   Bounds bounds;
   if (m.has_still_bounds) bounds.add(m.still_min_world, m.still_max_world);
-  for (const Job job : jobs) bounds.add(g.meshlets[job.meshlet].bounds_min_world, g.meshlets[job.meshlet].bounds_max_world);
+  for (const Job job : jobs)
+    bounds.add(g.meshlets[job.meshlet].bounds_min_world, g.meshlets[job.meshlet].bounds_max_world);
   out.bounds_min_world = bounds.lo;
   out.bounds_max_world = bounds.hi;
 }

@@ -103,7 +103,7 @@ void append_vertices(MeshPrimitive& mesh, const std::vector<std::uint32_t>& sour
 }  // namespace
 
 Vec4f place_tangent(const Mat4& t, Vec4f tangent) {
-  const auto row = [&](int r) { return Vec3d{t.m[r][0], t.m[r][1], t.m[r][2]}; };
+  const auto row = [&](int r) { return Vec3d{t[0][r], t[1][r], t[2][r]}; };
   const Vec3d d{tangent.x, tangent.y, tangent.z};
   Vec3d world = unit({dot(row(0), d), dot(row(1), d), dot(row(2), d)});
   if (is_zero(world)) world = {1, 0, 0};

@@ -8,10 +8,10 @@
 #include <span>
 
 #include "core/error.h"
+#include "scene/build/transform.h"
 #include "scene/gltf/export_glb_file.h"
 #include "scene/gltf/export_glb_water.h"
 #include "scene/images/images.h"
-#include "scene/build/transform.h"
 
 namespace shoal {
 namespace {
@@ -206,17 +206,25 @@ json GlbWriter::node_json(const Node& node) const {
   return out;
 }
 
+// Sixteen numbers, column by column.
+json matrix_json(const Affine& m) {
+  json out = json::array();
+  for (int c = 0; c < 4; ++c) {
+    for (const double value : {m[c].x, m[c].y, m[c].z, c == 3 ? 1.0 : 0.0}) out.push_back(value);
+  }
+  return out;
+}
+
 json GlbWriter::transform_json(const LocalTransform& local) const {
   json out = json::object();
+  const auto triple = [](const glm::dvec3& v) { return json::array({v.x, v.y, v.z}); };
   if (local.is_matrix) {
-    for (int c = 0; c < 4; ++c) {
-      for (int r = 0; r < 3; ++r) out["matrix"].push_back(local.matrix[r][c]);
-      out["matrix"].push_back(c == 3 ? 1.0 : 0.0);
-    }
+    out["matrix"] = matrix_json(local.matrix);
   } else {
-    out["translation"] = local.translation;
-    out["rotation"] = local.rotation;
-    out["scale"] = local.scale;
+    const glm::dvec4& q = local.rotation;
+    out["translation"] = triple(local.translation);
+    out["rotation"] = json::array({q.x, q.y, q.z, q.w});
+    out["scale"] = triple(local.scale);
   }
   return out;
 }
@@ -254,12 +262,7 @@ void GlbWriter::add_nodes() {
     } else {
       worlds.push_back(world);
     }
-    json matrix = json::array();
-    for (int c = 0; c < 4; ++c) {
-      for (int r = 0; r < 3; ++r) matrix.push_back(local.m[r][c]);
-      matrix.push_back(c == 3 ? 1.0 : 0.0);
-    }
-    if (std::memcmp(&local, &kAffineIdentity, sizeof local) != 0) out["matrix"] = std::move(matrix);
+    if (std::memcmp(&local, &kAffineIdentity, sizeof local) != 0) out["matrix"] = matrix_json(local);
     root_["nodes"].push_back(out.is_null() ? json::object() : std::move(out));
   }
 }
@@ -343,9 +346,7 @@ void GlbWriter::add_skins() {
     for (const std::int32_t joint : skin.joints) require_index(joint, scene_.nodes.size(), false, "joint");
     std::vector<float> matrices;
     for (const Mat4& m : skin.joint_from_mesh) {
-      for (int c = 0; c < 4; ++c) {
-        for (int r = 0; r < 4; ++r) matrices.push_back(r < 3 ? m.m[r][c] : c < 3 ? 0.0f : 1.0f);
-      }
+      for (int c = 0; c < 4; ++c) matrices.insert(matrices.end(), {m[c].x, m[c].y, m[c].z, c < 3 ? 0.0f : 1.0f});
     }
     json out;
     if (!skin.name.empty()) out["name"] = skin.name;

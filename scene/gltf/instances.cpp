@@ -50,9 +50,12 @@ std::vector<LocalTransform> read_instances(Document& document, const tinygltf::N
   std::vector<LocalTransform> instances(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < instances.size(); ++i) {
     LocalTransform& local = instances[i];
-    if (!translations.empty()) std::copy_n(&translations[3 * i], 3, local.translation);
-    if (!rotations.empty()) std::copy_n(&rotations[4 * i], 4, local.rotation);
-    if (!scales.empty()) std::copy_n(&scales[3 * i], 3, local.scale);
+    const auto triple = [i](const std::vector<double>& v) { return glm::dvec3{v[3 * i], v[3 * i + 1], v[3 * i + 2]}; };
+    if (!translations.empty()) local.translation = triple(translations);
+    if (!rotations.empty()) {
+      local.rotation = {rotations[4 * i], rotations[4 * i + 1], rotations[4 * i + 2], rotations[4 * i + 3]};
+    }
+    if (!scales.empty()) local.scale = triple(scales);
   }
   return instances;
 }

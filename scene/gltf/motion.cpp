@@ -94,8 +94,8 @@ class MotionReader {
           std::fabs(m[15] - 1) > 1e-3f) {
         wrong(inner + "[" + std::to_string(j) + "] has a projective part", "expected 0 0 0 1 as its last row");
       }
-      for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 4; ++c) skin.joint_from_mesh[j].m[r][c] = m[4 * c + r];
+      for (int c = 0; c < 4; ++c) {
+        skin.joint_from_mesh[j][c] = {m[4 * c], m[4 * c + 1], m[4 * c + 2], c < 3 ? 0.0f : 1.0f};
       }
     }
     return skin;

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/gltf/internal.h"
 #include "scene/build/transform.h"
+#include "scene/gltf/internal.h"
 
 namespace shoal::gltf {
 namespace {
@@ -88,8 +88,9 @@ LocalTransform matrix_transform(const Document& document, const std::vector<doub
   }
   LocalTransform local;
   local.is_matrix = true;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 4; ++c) local.matrix[r][c] = m[static_cast<std::size_t>(4 * c + r)];
+  for (int c = 0; c < 4; ++c) {
+    const double* column = &m[4 * static_cast<std::size_t>(c)];
+    local.matrix[c] = {column[0], column[1], column[2]};
   }
   return local;
 }
@@ -97,12 +98,12 @@ LocalTransform matrix_transform(const Document& document, const std::vector<doub
 LocalTransform local_transform(const Document& document, const tinygltf::Node& node, const std::string& label) {
   if (node.matrix.size() == 16) return matrix_transform(document, node.matrix, label);
   LocalTransform local;
-  if (node.translation.size() == 3) std::copy_n(node.translation.begin(), 3, local.translation);
-  if (node.scale.size() == 3) std::copy_n(node.scale.begin(), 3, local.scale);
-  if (node.rotation.size() != 4) return local;
-  std::copy_n(node.rotation.begin(), 4, local.rotation);
-  const double x = node.rotation[0], y = node.rotation[1], z = node.rotation[2], w = node.rotation[3];
-  const double square = ((x * x + y * y) + z * z) + w * w;
+  const std::vector<double>&t = node.translation, &s = node.scale, &q = node.rotation;
+  if (t.size() == 3) local.translation = {t[0], t[1], t[2]};
+  if (s.size() == 3) local.scale = {s[0], s[1], s[2]};
+  if (q.size() != 4) return local;
+  local.rotation = {q[0], q[1], q[2], q[3]};
+  const double square = ((q[0] * q[0] + q[1] * q[1]) + q[2] * q[2]) + q[3] * q[3];
   if (!(square > 1e-12 && square < 1e12)) {
     fail(document.path, label + ".rotation has length " + std::to_string(std::sqrt(square)),
          "expected a unit quaternion");
@@ -111,7 +112,7 @@ LocalTransform local_transform(const Document& document, const tinygltf::Node& n
 }
 
 struct Bounds {
-  double min[3] = {0, 0, 0}, max[3] = {0, 0, 0};
+  glm::dvec3 min{0, 0, 0}, max{0, 0, 0};
 };
 struct MeshSize {
   std::uint64_t triangles = 0, vertices = 0;
@@ -120,10 +121,9 @@ Bounds bounds_of(const Mesh& mesh) {
   Bounds bounds;
   for (const MeshPrimitive& primitive : mesh.primitives) {
     for (const Vec3f p : primitive.positions) {
-      const float v[3] = {p.x, p.y, p.z};
       for (int i = 0; i < 3; ++i) {
-        bounds.min[i] = std::fmin(bounds.min[i], static_cast<double>(v[i]));
-        bounds.max[i] = std::fmax(bounds.max[i], static_cast<double>(v[i]));
+        bounds.min[i] = std::fmin(bounds.min[i], static_cast<double>(p[i]));
+        bounds.max[i] = std::fmax(bounds.max[i], static_cast<double>(p[i]));
       }
     }
   }
@@ -235,10 +235,9 @@ class TreeReader {
   }
 
   void check_finite(const Mat4& m, const std::string& label) const {
-    for (const auto& row : m.m) {
-      for (const float value : row) {
-        if (!std::isfinite(value))
-          fail(document_.path, label + " has a transform that overflows", "expected finite numbers");
+    for (int c = 0; c < 4; ++c) {
+      if (!std::isfinite(m[c].x) || !std::isfinite(m[c].y) || !std::isfinite(m[c].z)) {
+        fail(document_.path, label + " has a transform that overflows", "expected finite numbers");
       }
     }
   }
@@ -255,9 +254,9 @@ class TreeReader {
                sizes_[mesh].triangles * (sizeof(Geometry::TriangleRecord) + 3),
            label);
     const Bounds& b = bounds_[mesh];
-    for (const auto& row : world.m) {
-      double reach = std::fabs(row[3]);
-      for (int i = 0; i < 3; ++i) reach += std::fabs(row[i]) * std::fmax(-b.min[i], b.max[i]);
+    for (int r = 0; r < 3; ++r) {
+      double reach = std::fabs(world[3][r]);
+      for (int i = 0; i < 3; ++i) reach += std::fabs(world[i][r]) * std::fmax(-b.min[i], b.max[i]);
       if (!(reach <= 4.0 * static_cast<double>(document_.limits.max_coordinate_m))) {
         fail(document_.path, label + " reaches " + std::to_string(reach) + " m from the origin",
              "expected vertices within " + std::to_string(document_.limits.max_coordinate_m) + " m");

@@ -100,12 +100,7 @@ void add_part(Scene& scene, const Part& part, int level) {
 
 std::vector<Mat4> places_at(std::initializer_list<Vec3f> at) {
   std::vector<Mat4> places;
-  for (const Vec3f& p : at) {
-    places.push_back(kIdentity4);
-    places.back().m[0][3] = p.x;
-    places.back().m[1][3] = p.y;
-    places.back().m[2][3] = p.z;
-  }
+  for (const Vec3f& p : at) places.push_back(translation(p));
   return places;
 }
 

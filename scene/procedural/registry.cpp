@@ -8,7 +8,7 @@ namespace {
 
 Mat4 look_along(Vec3f forward, Vec3f at) {
   const Vec3f z = normalize(-forward), x = normalize(cross(Vec3f{0, 1, 0}, z)), y = cross(z, x);
-  return {{{x.x, y.x, z.x, at.x}, {x.y, y.y, z.y, at.y}, {x.z, y.z, z.z, at.z}, {0, 0, 0, 1}}};
+  return from_rows({x.x, y.x, z.x, at.x}, {x.y, y.y, z.y, at.y}, {x.z, y.z, z.z, at.z});
 }
 
 Node make_node(const char* name, const Mat4& world_from_local) {
@@ -31,11 +31,7 @@ void add_camera(Scene& scene, const char* name, Vec3f at, Vec3f target, float yf
 
 void add_water(Scene& scene, const char* name, Vec3f at, const WaterSpec& spec) {
   scene.waters.push_back(spec);
-  Mat4 place = kIdentity4;
-  place.m[0][3] = at.x;
-  place.m[1][3] = at.y;
-  place.m[2][3] = at.z;
-  Node node = make_node(name, place);
+  Node node = make_node(name, translation(at));
   node.water = static_cast<std::int32_t>(scene.waters.size()) - 1;
   scene.nodes.push_back(std::move(node));
 }

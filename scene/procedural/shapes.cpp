@@ -76,14 +76,10 @@ void blade(PartBuilder& b, int material, int level, Vec3f foot, Vec3f lean, floa
 
 Mat4 placed(Vec3f at, float turned, float scale, float tipped) {
   const Vec2f c = turn(turned), t = turn(tipped);
-  Mat4 m = kIdentity4;
-  const float rows[3][3] = {{c.x, c.y * t.y, c.y * t.x}, {0, t.x, -t.y}, {-c.y, c.x * t.y, c.x * t.x}};
-  const float from[3] = {at.x, at.y, at.z};
-  for (int r = 0; r < 3; ++r) {
-    for (int k = 0; k < 3; ++k) m.m[r][k] = rows[r][k] * scale;
-    m.m[r][3] = from[r];
-  }
-  return m;
+  const Vec3f x_row = Vec3f{c.x, c.y * t.y, c.y * t.x} * scale, y_row = Vec3f{0, t.x, -t.y} * scale,
+              z_row = Vec3f{-c.y, c.x * t.y, c.x * t.x} * scale;
+  return from_rows({x_row.x, x_row.y, x_row.z, at.x}, {y_row.x, y_row.y, y_row.z, at.y},
+                   {z_row.x, z_row.y, z_row.z, at.z});
 }
 
 }  // namespace shoal

@@ -296,15 +296,13 @@ Scene make_tank(std::uint64_t triangles) {
   scene.materials = make_materials();
   add_parts(scene, make_parts(), {"room", room, placed_once(), 3, true}, triangles);
 
-  Mat4 top = kIdentity4;
-  top.m[1][3] = kWater;
-  add_tank_water(scene, "top", top, 2 * kHalfZ, kWater - kFloor);
+  add_tank_water(scene, "top", translation({0, kWater, 0}), 2 * kHalfZ, kWater - kFloor);
   SurfaceSettings& surface = scene.waters.back().surface;
   surface.kind = SurfaceKind::kGradientWaves;
   surface.slope = 0.02f;
   surface.wavelength_m = 0.35f;
   // Upright: local y is the world's z, local z points down.
-  const Mat4 front{{{1, 0, 0, 0}, {0, 0, -1, 0.5f * (kFloor + kWater)}, {0, 1, 0, kHalfZ}, {0, 0, 0, 1}}};
+  const Mat4 front = from_rows({1, 0, 0, 0}, {0, 0, -1, 0.5f * (kFloor + kWater)}, {0, 1, 0, kHalfZ});
   add_tank_water(scene, "front", front, kWater - kFloor, 2 * kHalfZ);
   add_sun(scene, {-0.40f, 0.80f, 0.62f}, {1.0f, 0.95f, 0.86f}, 2.4f);
   // The first four look down through the front: none of their rays meets the top from below. `low` looks up at it, and

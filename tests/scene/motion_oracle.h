@@ -23,8 +23,8 @@ inline Matrix multiply(const Matrix& a, const Matrix& b) {
 }
 inline Matrix as_double(const Mat4& m) {
   Matrix out{};
-  for (std::size_t r = 0; r < 4; ++r)
-    for (std::size_t c = 0; c < 4; ++c) out[r][c] = static_cast<double>(m.m[r][c]);
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) out[std::size_t(r)][std::size_t(c)] = static_cast<double>(m[c][r]);
   return out;
 }
 inline Vec3d point(const Matrix& m, Vec3d p) {
@@ -46,15 +46,16 @@ inline Vec3d turn(const Quaternion& q, Vec3d v) {
   const Vec3d t = cross(u, v) * 2.0;
   return v + t * q[3] + cross(u, t);
 }
-inline Matrix from_parts(const double* t, const Quaternion& rotation, const double* s) {
+inline Matrix from_parts(const glm::dvec3& t, const Quaternion& rotation, const glm::dvec3& s) {
   Matrix out = identity();
   const Quaternion q = unit(rotation);
   const Vec3d axes[3] = {turn(q, {1, 0, 0}), turn(q, {0, 1, 0}), turn(q, {0, 0, 1})};
+  const double scales[3] = {s.x, s.y, s.z}, offsets[3] = {t.x, t.y, t.z};
   for (std::size_t c = 0; c < 3; ++c) {
-    out[0][c] = axes[c].x * s[c];
-    out[1][c] = axes[c].y * s[c];
-    out[2][c] = axes[c].z * s[c];
-    out[c][3] = t[c];
+    out[0][c] = axes[c].x * scales[c];
+    out[1][c] = axes[c].y * scales[c];
+    out[2][c] = axes[c].z * scales[c];
+    out[c][3] = offsets[c];
   }
   return out;
 }
@@ -124,9 +125,9 @@ inline OraclePose oracle_pose(const Scene& scene, const std::vector<std::size_t>
       const std::vector<double> v = value_at(c, time);
       LocalTransform& local = locals[static_cast<std::size_t>(c.node)];
       if (c.path == ChannelPath::kWeights) pose.weights[static_cast<std::size_t>(c.node)] = v;
-      if (c.path == ChannelPath::kTranslation) std::copy_n(v.begin(), 3, local.translation);
-      if (c.path == ChannelPath::kRotation) std::copy_n(v.begin(), 4, local.rotation);
-      if (c.path == ChannelPath::kScale) std::copy_n(v.begin(), 3, local.scale);
+      if (c.path == ChannelPath::kTranslation) local.translation = {v[0], v[1], v[2]};
+      if (c.path == ChannelPath::kRotation) local.rotation = {v[0], v[1], v[2], v[3]};
+      if (c.path == ChannelPath::kScale) local.scale = {v[0], v[1], v[2]};
     }
   }
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
@@ -137,10 +138,10 @@ inline OraclePose oracle_pose(const Scene& scene, const std::vector<std::size_t>
     }
     const LocalTransform& l = locals[n];
     if (l.is_matrix) {
-      for (std::size_t r = 0; r < 3; ++r)
-        for (std::size_t c = 0; c < 4; ++c) local[r][c] = l.matrix[r][c];
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 4; ++c) local[std::size_t(r)][std::size_t(c)] = l.matrix[c][r];
     } else {
-      local = from_parts(l.translation, {l.rotation[0], l.rotation[1], l.rotation[2], l.rotation[3]}, l.scale);
+      local = from_parts(l.translation, {l.rotation.x, l.rotation.y, l.rotation.z, l.rotation.w}, l.scale);
     }
     const std::int32_t parent = scene.nodes[n].parent;
     pose.world.push_back(parent == kNoIndex ? local : multiply(pose.world[static_cast<std::size_t>(parent)], local));

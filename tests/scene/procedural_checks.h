@@ -134,7 +134,11 @@ inline std::string digest(const Scene& scene) {
       update(state, p.indices);
     }
   }
-  for (const Node& node : scene.nodes) XXH3_64bits_update(state, &node.world_from_local, sizeof(Mat4));
+  for (const Node& node : scene.nodes) {  // row by row
+    for (int r = 0; r < 4; ++r) {
+      for (int c = 0; c < 4; ++c) XXH3_64bits_update(state, &node.world_from_local[c][r], sizeof(float));
+    }
+  }
   for (const Texture& t : scene.materials.textures) update(state, t.rgba15);
   const std::uint64_t h = XXH3_64bits_digest(state);
   XXH3_freeState(state);

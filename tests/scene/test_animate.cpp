@@ -112,9 +112,9 @@ TEST_CASE("animate: the first animation plays, and those that move other things"
   REQUIRE(playing.channels.size() == 3);
   CHECK(playing.left_out == std::vector<std::size_t>{1});
   const Pose pose = pose_scene(scene, 1);
-  CHECK(pose.world_from_local[0].m[0][3] == 1);
-  CHECK(pose.world_from_local[1].m[0][3] == 1);
-  CHECK(pose.world_from_local[2].m[0][3] == 3);
+  CHECK(pose.world_from_local[0][3].x == 1);
+  CHECK(pose.world_from_local[1][3].x == 1);
+  CHECK(pose.world_from_local[2][3].x == 3);
 }
 
 TEST_CASE("animate: children move with their parents", "[animate]") {
@@ -126,8 +126,8 @@ TEST_CASE("animate: children move with their parents", "[animate]") {
   const std::vector<char> moves = moving_nodes(scene);
   CHECK(moves == std::vector<char>{0, kPlaceMoves, kPlaceMoves, 0});
   const Pose pose = pose_scene(scene, 0.5);
-  CHECK(pose.world_from_local[2].m[0][3] == 1);
-  CHECK(pose.world_from_local[2].m[1][3] == 5);
+  CHECK(pose.world_from_local[2][3].x == 1);
+  CHECK(pose.world_from_local[2][3].y == 5);
   CHECK(moving_nodes(nodes_in_a_row(2)).empty());
 }
 

@@ -61,16 +61,16 @@ double outline_area(const WaterBody& body) {
   return area;
 }
 
-constexpr Mat4 kMirrorX = {{{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+constexpr Mat4 kMirrorX = from_rows({-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0});
 // A quarter turn about x: +y goes to +z, +z to -y.
-constexpr Mat4 kTurnX = {{{1, 0, 0, 5}, {0, 0, -1, 6}, {0, 1, 0, 7}, {0, 0, 0, 1}}};
+constexpr Mat4 kTurnX = from_rows({1, 0, 0, 5}, {0, 0, -1, 6}, {0, 1, 0, 7});
 
 }  // namespace
 
 TEST_CASE("normals go by the inverse transpose and stay unit", "[build]") {
   Mat4 t = kIdentity4;  // squash x to a quarter, shear z by x
-  t.m[0][0] = 0.25f;
-  t.m[2][0] = 0.5f;
+  t[0].x = 0.25f;
+  t[0].z = 0.5f;
   Scene scene = triangle_scene(t);
   scene.meshes[0].primitives[0].normals.assign(3, Vec3f{0.6f, 0, 0.8f});
   const RenderScene out = build_render_scene(scene);
@@ -87,12 +87,12 @@ TEST_CASE("normals go by the inverse transpose and stay unit", "[build]") {
 TEST_CASE("normals survive tiny and flat scales", "[build]") {
   for (const float s : {1e-18f, 1e12f}) {
     Mat4 t = kIdentity4;
-    for (int i = 0; i < 3; ++i) t.m[i][i] = s;
+    for (int i = 0; i < 3; ++i) t[i][i] = s;
     const Vec3f n = build_render_scene(triangle_scene(t)).geometry.vertices[0].normal_world;
     CHECK(n.z == Approx(1.0f));
   }
   Mat4 flat = kIdentity4;
-  flat.m[0][0] = flat.m[1][1] = flat.m[2][2] = 0;
+  flat[0].x = flat[1].y = flat[2].z = 0;
   const Vec3f n = build_render_scene(triangle_scene(flat)).geometry.vertices[0].normal_world;
   CHECK(dot(n, n) == 1.0f);
 }
@@ -108,7 +108,7 @@ TEST_CASE("a mirrored node keeps its front faces in front", "[build]") {
 TEST_CASE("a vertex that leaves the numbers is an error", "[build]") {
   Scene scene = triangle_scene(kIdentity4);
   scene.meshes[0].primitives[0].positions[1].x = 3e38f;
-  scene.nodes[0].world_from_local.m[0][0] = 10;
+  scene.nodes[0].world_from_local[0].x = 10;
   CHECK_THROWS_AS(build_render_scene(scene), Error);
 }
 
@@ -123,8 +123,8 @@ TEST_CASE("water of a given size, on a turned, scaled and mirrored node", "[buil
     scene.waters.push_back(spec);
     Mat4 t = kTurnX;
     for (int row = 0; row < 3; ++row) {
-      t.m[row][0] *= 3.0f * mirror;
-      t.m[row][1] *= 2.0f;
+      t[0][row] *= 3.0f * mirror;
+      t[1][row] *= 2.0f;
     }
     scene.nodes.push_back(place("water", t));
     scene.nodes[1].water = 0;
@@ -150,7 +150,7 @@ TEST_CASE("a planar mesh is the water's outline: not drawn, its ids kept", "[bui
   scene.meshes.push_back(square_mesh());
   scene.waters.emplace_back();
   Node water = place("water", kIdentity4);
-  water.world_from_local.m[1][3] = 2;
+  water.world_from_local[3].y = 2;
   water.mesh = 1;
   water.water = 0;
   scene.nodes.insert(scene.nodes.begin(), water);
@@ -179,7 +179,7 @@ TEST_CASE("water that makes no sense is an error", "[build][water]") {
   scene.waters[0].size_x = scene.waters[0].size_z = 1;
   SECTION("sound otherwise") { CHECK_NOTHROW(build_render_scene(scene)); }
   SECTION("a degenerate node") {
-    scene.nodes[1].world_from_local.m[0][0] = 0;
+    scene.nodes[1].world_from_local[0].x = 0;
     CHECK_THROWS_AS(build_render_scene(scene), Error);
   }
   SECTION("no size") {
@@ -200,7 +200,7 @@ TEST_CASE("cameras stand where their nodes are, in node order", "[build][camera]
   scene.cameras[1].xmag = 3;
   scene.cameras[1].ymag = 2;
   Mat4 scaled = kTurnX;
-  for (int row = 0; row < 3; ++row) scaled.m[row][1] *= 7.0f;  // a camera's node may be scaled: no matter
+  for (int row = 0; row < 3; ++row) scaled[1][row] *= 7.0f;  // a camera's node may be scaled: no matter
   scene.nodes.push_back(place("second", scaled));
   scene.nodes[1].camera = 1;
   scene.nodes.push_back(place("first", kTurnX));
@@ -223,8 +223,8 @@ TEST_CASE("cameras stand where their nodes are, in node order", "[build][camera]
 
 TEST_CASE("without a camera, one sees the whole scene", "[build][camera]") {
   Mat4 t = kIdentity4;
-  t.m[0][0] = 40;
-  t.m[1][3] = -300;
+  t[0].x = 40;
+  t[3].y = -300;
   const RenderScene out = build_render_scene(triangle_scene(t));
   REQUIRE(out.cameras.size() == 1);
   CHECK(out.cameras[0].name == "default");

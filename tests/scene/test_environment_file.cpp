@@ -12,10 +12,10 @@
 
 #include "core/error.h"
 #include "core/thread_pool.h"
-#include "shading/environment/sample.h"
-#include "scene/images/environment.h"
 #include "scene/gltf/gltf.h"
+#include "scene/images/environment.h"
 #include "scene/images/images.h"
+#include "shading/environment/sample.h"
 
 using namespace shoal;
 namespace fs = std::filesystem;

@@ -142,7 +142,9 @@ void check_same(const Scene& a, const Scene& b) {
     CHECK(x.name == y.name);
     CHECK(x.parent == y.parent);
     // By value: a product with the parent's transform makes 0 of -0.
-    CHECK(std::equal(&x.world_from_local.m[0][0], &x.world_from_local.m[0][0] + 16, &y.world_from_local.m[0][0]));
+    for (int c = 0; c < 4; ++c) {
+      for (int r = 0; r < 4; ++r) CHECK(x.world_from_local[c][r] == y.world_from_local[c][r]);
+    }
     CHECK(x.mesh == y.mesh);
     CHECK(x.camera == y.camera);
     CHECK(x.light == y.light);
@@ -283,7 +285,7 @@ Scene full_scene() {
 
   scene.nodes.resize(7);
   scene.nodes[0].name = "root";
-  scene.nodes[0].world_from_local = {{{0.1f, -0.0f, 0, 3}, {0, -2.7f, 0, 1e-30f}, {0, 0.3f, 5, 1e7f}, {0, 0, 0, 1}}};
+  scene.nodes[0].world_from_local = from_rows({0.1f, -0.0f, 0, 3}, {0, -2.7f, 0, 1e-30f}, {0, 0.3f, 5, 1e7f});
   scene.nodes[1].mesh = 0;
   scene.nodes[2].mesh = 1;
   scene.nodes[2].water = 0;
@@ -327,11 +329,10 @@ TEST_CASE("export: children keep their place below turned, scaled, mirrored pare
   Scene scene;
   scene.nodes.resize(5);
   // Quarter turn and mirror; a turn by 30 degrees; scale 0.1.
-  scene.nodes[0].world_from_local = {{{0, 0, 2, 1}, {0, -2, 0, 0.3f}, {2, 0, 0, -7}, {0, 0, 0, 1}}};
-  scene.nodes[1].world_from_local = {
-      {{0.8660254f, -0.5f, 0, 11}, {0.5f, 0.8660254f, 0, 0}, {0, 0, 1, 0.1f}, {0, 0, 0, 1}}};
-  scene.nodes[2].world_from_local = {{{0.1f, 0, 0, 5}, {0, 0.1f, 0, 6}, {0, 0, 0.1f, 7}, {0, 0, 0, 1}}};
-  scene.nodes[3].world_from_local = {{{1, 2, 3, 0}, {0, 1, 4, 0}, {5, 6, 0, 0}, {0, 0, 0, 1}}};
+  scene.nodes[0].world_from_local = from_rows({0, 0, 2, 1}, {0, -2, 0, 0.3f}, {2, 0, 0, -7});
+  scene.nodes[1].world_from_local = from_rows({0.8660254f, -0.5f, 0, 11}, {0.5f, 0.8660254f, 0, 0}, {0, 0, 1, 0.1f});
+  scene.nodes[2].world_from_local = from_rows({0.1f, 0, 0, 5}, {0, 0.1f, 0, 6}, {0, 0, 0.1f, 7});
+  scene.nodes[3].world_from_local = from_rows({1, 2, 3, 0}, {0, 1, 4, 0}, {5, 6, 0, 0});
   const std::int32_t parents[] = {kNoIndex, 0, 1, 1, kNoIndex};
   for (std::size_t i = 0; i < 5; ++i) {
     scene.nodes[i].parent = parents[i];

@@ -173,9 +173,9 @@ TEST_CASE("gltf: nodes come depth first, their transforms multiplied", "[gltf]")
   CHECK(scene.nodes[3].parent == 0);
   // A quarter turn about y takes x to -z and z to x.
   const auto check_point = [](const Mat4& m, Vec3d p, Vec3d expected) {
-    CHECK(m.m[0][0] * p.x + m.m[0][1] * p.y + m.m[0][2] * p.z + m.m[0][3] == Approx(expected.x).margin(1e-5));
-    CHECK(m.m[1][0] * p.x + m.m[1][1] * p.y + m.m[1][2] * p.z + m.m[1][3] == Approx(expected.y).margin(1e-5));
-    CHECK(m.m[2][0] * p.x + m.m[2][1] * p.y + m.m[2][2] * p.z + m.m[2][3] == Approx(expected.z).margin(1e-5));
+    CHECK(m[0].x * p.x + m[1].x * p.y + m[2].x * p.z + m[3].x == Approx(expected.x).margin(1e-5));
+    CHECK(m[0].y * p.x + m[1].y * p.y + m[2].y * p.z + m[3].y == Approx(expected.y).margin(1e-5));
+    CHECK(m[0].z * p.x + m[1].z * p.y + m[2].z * p.z + m[3].z == Approx(expected.z).margin(1e-5));
   };
   check_point(scene.nodes[0].world_from_local, {1, 2, 3}, {10 + 3, 20 + 2, 30 - 1});
   check_point(scene.nodes[1].world_from_local, {1, 2, 3}, {10 - 12, 20 + 6, 30 - 2});

@@ -197,8 +197,8 @@ TEST_CASE("gltf: skins, morph targets, animations and instances are read as the 
   CHECK(scene.nodes[0].skin == 0);
   REQUIRE(scene.skins.size() == 1);
   CHECK(scene.skins[0].joints == std::vector<std::int32_t>{4, 5});
-  CHECK(scene.skins[0].joint_from_mesh[1].m[0][3] == 5);
-  CHECK(scene.skins[0].joint_from_mesh[1].m[2][3] == 7);
+  CHECK(scene.skins[0].joint_from_mesh[1][3].x == 5);
+  CHECK(scene.skins[0].joint_from_mesh[1][3].z == 7);
   const MeshPrimitive& skinned = scene.meshes[0].primitives[0];
   CHECK(skinned.influences == 4);
   // Without weight a joint's number says nothing; weights of sum 2 are halved.
@@ -212,9 +212,9 @@ TEST_CASE("gltf: skins, morph targets, animations and instances are read as the 
     CHECK(scene.nodes[n].name == "herd");
     CHECK(scene.nodes[n].morph_weights == std::vector<float>{0.75f});
   }
-  CHECK(scene.nodes[8].world_from_local.m[0][0] == -2);  // half a turn about y, twice as large
-  CHECK(scene.nodes[8].world_from_local.m[1][1] == 2);
-  CHECK(scene.nodes[8].world_from_local.m[1][3] == 5);
+  CHECK(scene.nodes[8].world_from_local[0].x == -2);  // half a turn about y, twice as large
+  CHECK(scene.nodes[8].world_from_local[1].y == 2);
+  CHECK(scene.nodes[8].world_from_local[3].y == 5);
   CHECK(scene.meshes[1].primitives[0].flat_normals);
   CHECK_FALSE(skinned.flat_normals);
 
@@ -240,10 +240,9 @@ TEST_CASE("gltf: what moves comes back from a .glb as it was", "[gltf][export]")
     CAPTURE(n);
     CHECK(back.nodes[n].skin == scene.nodes[n].skin);
     CHECK(back.nodes[n].morph_weights == scene.nodes[n].morph_weights);
-    for (std::size_t i = 0; i < 4; ++i) CHECK(back.locals[n].rotation[i] == scene.locals[n].rotation[i]);
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 4; ++c)
-        CHECK(back.nodes[n].world_from_local.m[r][c] == scene.nodes[n].world_from_local.m[r][c]);
+    for (int i = 0; i < 4; ++i) CHECK(back.locals[n].rotation[i] == scene.locals[n].rotation[i]);
+    for (int c = 0; c < 4; ++c) {
+      for (int r = 0; r < 3; ++r) CHECK(back.nodes[n].world_from_local[c][r] == scene.nodes[n].world_from_local[c][r]);
     }
   }
   REQUIRE(back.meshes.size() == 2);
@@ -257,7 +256,7 @@ TEST_CASE("gltf: what moves comes back from a .glb as it was", "[gltf][export]")
   CHECK(d.targets[0].positions[2].z == c.targets[0].positions[2].z);
   REQUIRE(back.skins.size() == 1);
   CHECK(back.skins[0].name == "bones");
-  CHECK(back.skins[0].joint_from_mesh[1].m[1][3] == 6);
+  CHECK(back.skins[0].joint_from_mesh[1][3].y == 6);
   REQUIRE(back.animations.size() == 1);
   for (std::size_t i = 0; i < 3; ++i) {
     CHECK(back.animations[0].channels[i].values == scene.animations[0].channels[i].values);

@@ -56,7 +56,7 @@ TEST_CASE("images: a PNG cannot hold more than deflate makes of its bytes", "[im
     Bytes header(file.begin() + 16, file.begin() + 29);
     for (int i = 0; i < 4; ++i)
       header[static_cast<std::size_t>(4 + i)] = static_cast<std::uint8_t>(height >> (24 - 8 * i));
-    append_png_meshlet(out, "IHDR", header);
+    append_png_chunk(out, "IHDR", header);
     out.insert(out.end(), file.begin() + 33, file.end());
     return out;
   };

@@ -47,7 +47,7 @@ Scene bent_bar() {
   Skin skin;
   skin.joints = {1, 2};
   skin.joint_from_mesh.assign(2, kIdentity4);
-  skin.joint_from_mesh[1].m[1][3] = -1;
+  skin.joint_from_mesh[1][3].y = -1;
   scene.skins.push_back(skin);
   Channel bend;
   bend.node = 2;
@@ -93,7 +93,7 @@ bool same_geometry(const Geometry& a, const Geometry& b) {
   for (std::size_t c = 0; meshlets && c < a.meshlets.size(); ++c) {
     const Meshlet &x = a.meshlets[c], &y = b.meshlets[c];
     meshlets = std::memcmp(&x.bounds_min_world, &y.bounds_min_world, 12) == 0 &&
-             std::memcmp(&x.bounds_max_world, &y.bounds_max_world, 12) == 0 && x.longest_edge_m == y.longest_edge_m;
+               std::memcmp(&x.bounds_max_world, &y.bounds_max_world, 12) == 0 && x.longest_edge_m == y.longest_edge_m;
   }
   return meshlets && same_bytes(a.vertices, b.vertices) && same_bytes(a.x_world, b.x_world) &&
          same_bytes(a.y_world, b.y_world) && same_bytes(a.z_world, b.z_world) && same_bytes(a.triangles, b.triangles) &&
@@ -143,9 +143,7 @@ TEST_CASE("motion: what was built and what was moved there are the same", "[moti
   Scene moving = lone_triangle(), still = lone_triangle();
   moving.animations.push_back({"", {channel(0, ChannelPath::kTranslation, {0, 1}, {0, 0, 0, 4, 8, -2})}});
   still.locals.clear();
-  still.nodes[0].world_from_local.m[0][3] = 1;
-  still.nodes[0].world_from_local.m[1][3] = 2;
-  still.nodes[0].world_from_local.m[2][3] = -0.5f;
+  still.nodes[0].world_from_local = translation({1, 2, -0.5f});
   RenderScene render = build_render_scene(moving);
   update_render_scene(render, 0.25);
   CHECK(same_geometry(render.geometry, build_render_scene(still).geometry));

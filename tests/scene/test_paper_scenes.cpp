@@ -42,12 +42,12 @@ template <class Fn>
 void for_each_world_vertex(const Scene& scene, const std::string& mesh, Fn&& visit) {
   for (const Node& node : scene.nodes) {
     if (node.mesh == kNoIndex || scene.meshes[static_cast<std::size_t>(node.mesh)].name != mesh) continue;
-    const auto& m = node.world_from_local.m;
+    const Mat4& m = node.world_from_local;
     for (const MeshPrimitive& p : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives)
       for (const Vec3f v : p.positions)
-        visit(Vec3f{m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z + m[0][3],
-                    m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z + m[1][3],
-                    m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z + m[2][3]});
+        visit(Vec3f{m[0].x * v.x + m[1].x * v.y + m[2].x * v.z + m[3].x,
+                    m[0].y * v.x + m[1].y * v.y + m[2].y * v.z + m[3].y,
+                    m[0].z * v.x + m[1].z * v.y + m[2].z * v.z + m[3].z});
   }
 }
 
@@ -163,11 +163,11 @@ TEST_CASE("the pond has Steel's 128 pots in two colours, on its bed", "[procedur
       const std::string& name = scene.meshes[static_cast<std::size_t>(node.mesh)].name;
       if (name != "blue_pot" && name != "green_pot") continue;
       ++pots[name == "blue_pot" ? 0 : 1];
-      const auto& m = node.world_from_local.m;
-      if (m[1][3] < -0.2f) ++under;
-      const std::vector<double> ground = heights_at(*terrain, double(m[0][3]), double(m[2][3]));
+      const Vec3f at(node.world_from_local[3]);
+      if (at.y < -0.2f) ++under;
+      const std::vector<double> ground = heights_at(*terrain, double(at.x), double(at.z));
       // A coarse bed cuts corners.
-      if (ground.empty() || std::fabs(ground[0] - double(m[1][3])) > (n > 100000 ? 0.35 : 0.8)) ++off_the_bed;
+      if (ground.empty() || std::fabs(ground[0] - double(at.y)) > (n > 100000 ? 0.35 : 0.8)) ++off_the_bed;
     }
     CHECK(pots[0] == 64);
     CHECK(pots[1] == 64);

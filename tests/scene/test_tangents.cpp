@@ -134,7 +134,7 @@ TEST_CASE("tangents: without area in the texture any direction across the normal
 }
 
 TEST_CASE("tangents: placed along the bent surface; a mirror image turns the bitangent's sign") {
-  const Mat4 stretched = {{{2, 0, 0, 5}, {0, 1, 0, 6}, {0, 0, -3, 7}, {0, 0, 0, 1}}};
+  const Mat4 stretched = from_rows({2, 0, 0, 5}, {0, 1, 0, 6}, {0, 0, -3, 7});
   const Vec4f t = place_tangent(stretched, {0.6f, 0, 0.8f, 1});
   const double length = std::hypot(1.2, 2.4);
   CHECK(t.x == Approx(1.2 / length));

@@ -41,6 +41,7 @@ while read -r file header kind; do
       core/wide/*:immintrin.h | core/wide/*:arm_neon.h) ;;
       trace/embree_queries.cpp:embree3/rtcore.h) ;;
       core/float_mode.cpp:immintrin.h | core/float_mode.cpp:xmmintrin.h) ;;
+      core/vec.h:glm/* | core/matrix.h:glm/*) ;;
       core/digest.cpp:xxhash.h | core/thread_pool.cpp:sched.h) ;;
       *:*mmintrin.h | *:immintrin.h | *:arm_neon.h) complain "$file: includes <$header>; intrinsics belong in core/wide" ;;
       *:*[./]*) [[ $edge == yes ]] || complain "$file: includes <$header>; expected the standard library only" ;;
