@@ -55,7 +55,7 @@ struct ImageSpaceKernels {
       const ExactRay<WideF> at = load_interface(interface);
       const LayerPlace<WideF> place =
           M::sample_place(SampleIn{raster, block, block_rays(in.view.view, block), at, through});
-      fetch_layer(fetch, block, at, place, through, out.hits[at_block], out.fetched[at_block]);
+      fetch_layer(fetch, at, place, through, out.hits[at_block], out.fetched[at_block]);
     });
   }
 

@@ -48,7 +48,7 @@ void light_layer(const LightLayerIn& in, LitLayer& out, std::size_t region);
 // surface. Writes the light, the triangle of the nearest texel, and, where the sample is captured, the point: mixed as
 // the light is where all four texels are of one drawable, else the nearest's.
 //   at  where the pixels' rays cross the surface
-void fetch_layer(const FetchIn& in, const Block& block, const ExactRay<WideF>& at, LayerPlace<WideF> place, WideM lanes,
-                 HitBlock& hits, FetchedBlock& out);
+void fetch_layer(const FetchIn& in, const ExactRay<WideF>& at, LayerPlace<WideF> place, WideM lanes, HitBlock& hits,
+                 FetchedBlock& out);
 
 }  // namespace shoal::inline SHOAL_ISA_NS

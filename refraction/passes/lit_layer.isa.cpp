@@ -98,8 +98,8 @@ void light_layer(const LightLayerIn& in, LitLayer& out, std::size_t region) {
   for_each_block(in.grids.frame, region, [&](const Block& block) SHOAL_LAMBDA { light_block(in, out, block); });
 }
 
-void fetch_layer(const FetchIn& in, const Block& block, const ExactRay<WideF>& at, LayerPlace<WideF> place, WideM lanes,
-                 HitBlock& hits, FetchedBlock& out) {
+void fetch_layer(const FetchIn& in, const ExactRay<WideF>& at, LayerPlace<WideF> place, WideM lanes, HitBlock& hits,
+                 FetchedBlock& out) {
   const FrameGrid& grid = in.grids.frame;
   const WaterBody& body = in.optics.body();
   const WideF width(static_cast<float>(grid.width_px)), height(static_cast<float>(grid.height_px));

@@ -10,6 +10,7 @@
 #include "refraction/data/water_pass.h"
 #include "scene/scene_view.h"
 #include "shading/post.h"
+#include "trace/path.h"
 #include "trace/ray_counts.h"
 #include "trace/trace_view.h"
 
@@ -38,3 +39,10 @@ struct TraceOut {
 };
 
 }  // namespace shoal
+
+namespace shoal::inline SHOAL_ISA_NS {
+
+// Traces the pixels of one region of the frame.
+void trace_region(const TraceIn& in, const TraceLimits& limits, const TraceOut& out, std::size_t region);
+
+}  // namespace shoal::inline SHOAL_ISA_NS
