@@ -8,12 +8,26 @@
 
 namespace shoal::app {
 
-int run_list(const std::string& kind) {
+namespace {
+
+// The options of a method, a line each: key, default, what is allowed, meaning.
+std::string option_lines(const MethodInfo& method) {
+  std::string lines;
+  for (const MethodOptionInfo& o : method.options)
+    lines += fmt::format("    {:<14} {:<8} {}: {}\n", o.key, o.default_value, o.range, o.meaning);
+  return lines;
+}
+
+}  // namespace
+
+int run_list(const std::string& kind, bool verbose) {
   std::string lines;
   if (kind == "methods") {
-    for (const MethodInfo& m : method_infos())
-      lines += fmt::format("{:<16} {} ({}){}\n", m.name, m.description, m.source,
+    for (const MethodInfo& m : method_infos()) {
+      lines += fmt::format("{:<16} {:<7} {} ({}){}\n", m.name, m.category, m.description, m.source,
                            m.portable ? "" : "; not the same bytes on every machine");
+      if (verbose) lines += option_lines(m);
+    }
   } else if (kind == "surfaces") {
     for (const SurfaceKindInfo& s : surface_kinds()) lines += fmt::format("{:<16} {}\n", s.name, s.description);
   } else if (kind == "scenes") {

@@ -27,6 +27,6 @@ int run_diff(const DiffArguments& arguments);
 int run_probe(const ProbeArguments& arguments);
 int run_scene(const RawOptions& raw);
 int run_info(const RawOptions& raw);
-int run_list(const std::string& kind);
+int run_list(const std::string& kind, bool verbose);
 
 }  // namespace shoal::app

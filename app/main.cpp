@@ -178,6 +178,7 @@ int run(int argc, char** argv) {
   DiffArguments diff;
   ProbeArguments probe;
   std::string kind;
+  bool verbose = false;
 
   CLI::App& render = *root.add_subcommand("render", "one frame, or a run of frames, to PNG or EXR");
   add_scene_options(render, raw);
@@ -211,6 +212,7 @@ int run(int argc, char** argv) {
 
   CLI::App& list = *root.add_subcommand("list", "names, one a line");
   list.add_option("KIND", kind, "methods, surfaces, scenes or isas")->required()->type_name("");
+  list.add_flag("--verbose", verbose, "methods: with the options of each");
 
   if (argc < 2) return report(std::string("no command; expected one of: ") + kCommands, kExitUsage);
   const std::string first = argv[1];
@@ -233,7 +235,7 @@ int run(int argc, char** argv) {
   if (probe_command) return run_probe(probe);
   if (scene) return run_scene(raw);
   if (info) return run_info(raw);
-  if (list) return run_list(kind);
+  if (list) return run_list(kind, verbose);
   return report(std::string("no command; expected one of: ") + kCommands, kExitUsage);
 }
 
