@@ -4,6 +4,7 @@
 
 #include "refraction/renderer.h"
 #include "scene/build/animate.h"
+#include "scene/build/transform.h"
 
 namespace shoal::test {
 namespace {
@@ -24,19 +25,16 @@ Scene swaying_box() {
     const Node& node = scene.nodes[n];
     REQUIRE(node.parent == kNoIndex);
     LocalTransform local;
-    for (std::size_t i = 0; i < 3; ++i) local.translation[i] = static_cast<double>(node.world_from_local.m[i][3]);
+    local.translation = widen(node.world_from_local)[3];
     const bool moves = node.water != kNoIndex || (node.mesh != kNoIndex && n % 2 == 1);
     if (!moves) {
       local.is_matrix = true;
-      for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 4; ++c) local.matrix[r][c] = static_cast<double>(node.world_from_local.m[r][c]);
-      }
+      local.matrix = widen(node.world_from_local);
     } else {
       Channel c;
       c.node = static_cast<std::int32_t>(n);
       c.times_s = {0, 2};
-      const float x = node.world_from_local.m[0][3], y = node.world_from_local.m[1][3],
-                  z = node.world_from_local.m[2][3];
+      const float x = node.world_from_local[3].x, y = node.world_from_local[3].y, z = node.world_from_local[3].z;
       c.values = {x, y, z, node.water != kNoIndex ? x : x + 0.25f, y - 0.125f, z};
       sway.channels.push_back(c);
     }

@@ -40,7 +40,7 @@ Sheet level(float half, float y, Vec4f color) {
 void add_water(Scene& scene, float size, float depth, float y, Vec3f absorption) {
   Node node;
   node.water = static_cast<std::int32_t>(scene.waters.size());
-  node.world_from_local.m[1][3] = y;
+  node.world_from_local[3].y = y;
   WaterSpec spec;
   spec.has_size = spec.has_depth = true;
   spec.size_x = spec.size_z = size, spec.depth = depth;
