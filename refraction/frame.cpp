@@ -26,8 +26,8 @@ void draw_sample(const FrameIn& in, const ViewState& view, const FrameOut& out, 
   {  // 2 Direct: vertex -> clip -> setup -> bin -> visibility; the water's surface is one of its primitives.
     Stage stage(run, "direct.front_end");
     kernels.outline_front_end({in.outlines, work.water, view}, {work.outline_bins});
-    stage.for_each(work.bins.work_items.size(), [&](std::size_t item) {
-      kernels.direct_front_end({scene.geometry(), view}, {work.bins}, item);
+    stage.for_each(work.bins.work_items.size(), [&](std::size_t work_item) {
+      kernels.direct_front_end({scene.geometry(), view}, {work.bins}, work_item);
     });
   }
   {

@@ -69,7 +69,7 @@ std::vector<LevelTriangle> level_triangles(const RenderScene& scene, const Water
   return found;
 }
 
-// Of a drawable's level triangles those of one height whose area is the greatest.
+// Returns those of a drawable's level triangles that share a height and have the greatest area together.
 std::vector<LevelTriangle> greatest_level(std::vector<LevelTriangle> all, double& area) {
   std::stable_sort(all.begin(), all.end(),
                    [](const LevelTriangle& a, const LevelTriangle& b) { return a.height_m < b.height_m; });

@@ -12,13 +12,16 @@
 // `rays` makes the ray of a water pixel from the interface: `at` is where the view ray crosses the surface and how it
 // continues, `crossing` its differential there (at_crossing). Optional members:
 //
-//   struct Options {...}; and  static constexpr MethodOption kOptions[] = {...};          (refraction/data/options.h)
-//   static void narrow(const NarrowIn<kCategory>&, const NarrowOut&, std::size_t region)  finds the hits by itself: no
-//                                              refracted layer is drawn (distance_field.cpp)
-//   static void prepare(const PrepareIn&, MethodState&)                                   makes private data
-//   static PixelRays<WideF> shown_rays(const PixelRaysIn&)  the rays that are shown, where they are not `rays`
-//   static constexpr bool kMisses = true;      it may find nothing where there is something
+//   static void narrow(const NarrowIn<kCategory>&, const NarrowOut&, std::size_t region)
+//       finds the hits by itself; no refracted layer is drawn (distance_field.cpp)
+//   static void prepare(const PrepareIn&, MethodState&)
+//       makes private data of the scene before the frames (distance_field.cpp)
+//   static PixelRays<WideF> shown_rays(const PixelRaysIn&)
+//       the rays that the pixels show, where they are not `rays` (block_grid.cpp)
+//   static constexpr bool kMisses = true;
+//       the method may find nothing where there is something
 //
+// Options are a plain struct and a table of its fields, given to ray_method (refraction/data/options.h).
 // RayMethodKernels<MyMethod>::kernels() makes the frame's kernels of it. Methods that fetch from a lit picture of the
 // layer are image-space methods (refraction/methods/image_space.h).
 #pragma once
