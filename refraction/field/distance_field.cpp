@@ -124,7 +124,7 @@ class FieldBuilder {
     });
   }
 
-  // Hands triangles on along an axis, plane of voxels by plane: a voxel looks at the nine nearest of the last plane.
+  // Hands triangles on along an axis, plane of voxels by plane: a voxel takes the best of the nine nearest of the last plane.
   //   axis  0 to 2; step 1 or -1
   void sweep(int axis, std::int32_t step) {
     const std::int32_t count[3] = {f_.count_x, f_.count_y, f_.count_z};

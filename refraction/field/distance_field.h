@@ -31,7 +31,7 @@ struct DistanceFields : MethodData {
   std::vector<std::pair<std::string, double>> figures() const override {
     return {{"field_build_ms", build_ms}, {"field_mb", static_cast<double>(bytes()) / 1048576.0}};
   }
-  // Without a camera both sides of each; with one only those that it looks into, the others stay as they are.
+  // Builds both sides of each body; with a camera only the sides that its rays enter, and the others stay as they are.
   void build(const RenderScene& scene, const Camera* camera, int resolution, ThreadPool& pool);
 };
 

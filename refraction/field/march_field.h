@@ -10,7 +10,7 @@
 namespace shoal {
 
 struct MarchSettings {
-  float stop_voxels;  // a ray that passes the nearest triangle no farther than this meets it
+  float stop_voxels;  // a ray that passes the nearest triangle no farther than this hits it
   int most_steps;
 };
 
@@ -20,12 +20,12 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 struct FieldHit {
   WideI id;   // kNoId: the ray leaves the field, or has no steps left
-  WideF t;    // where the ray meets the triangle's plane; 0 where it meets none
+  WideF t;    // where the ray intersects the triangle's plane; 0 where it hits none
   int steps;  // of the lane that took the most
 };
 
-// Within this many voxels of a surface the nearest triangle itself is asked; a triangle counts where the ray meets its
-// plane no farther than this along the ray.
+// Within this many voxels of a surface the ray is tested against the nearest triangle; it counts where the ray meets
+// its plane no farther than this along the ray.
 inline constexpr float kNearVoxels = 1.0f, kAheadVoxels = 2.0f;
 
 // Where the field is sampled: between the centres of eight voxels, and the voxel that holds the point.
@@ -77,8 +77,8 @@ struct PlaneHit {
   WideM held;
 };
 
-// Where rays meet the planes of triangles. It holds within `reach_m` of the triangle, and from its front (from both
-// sides of a double-sided one).
+// Where rays intersect the planes of triangles. It holds within `reach_m` of the triangle, and from its front (from
+// both sides of a double-sided one).
 SHOAL_INLINE PlaneHit meet_plane(const GeometryView& g, const Ray<WideF>& ray, WideI id, float reach_m, WideM lanes) {
   Vec3<WideF> p0{}, e1{}, e2{};
   WideM two_sided = mask_from_bits(0);

@@ -2,9 +2,9 @@
 // shaded from the nearest surface there. Nothing of the refracted layer is drawn; reflections are those of all methods.
 //
 // Source  Liu et al. 2020, reference [13]: Rodgman and Chen 2001, refraction in discretely sampled distance fields.
-// Differs The field says where a ray comes near a surface; what it then meets is the nearest triangle, shaded by its
+// Differs The field gives where a ray comes near a surface; it then hits the nearest triangle, which is shaded by its
 // own
-//         attributes, so that colours are not those of voxels. What is smaller than a voxel is met only where it is
+//         attributes, so that colours are not those of voxels. What is smaller than a voxel is hit only where it is
 //         the nearest triangle of one. Cut-out materials are whole.
 #include "refraction/field/march_field.h"
 #include "refraction/methods/method.h"

@@ -6,7 +6,7 @@
 //         vertex, and line 11 misses the camera's position. Line 7 is solved exactly. Edges are split as two-phase has
 //         them split (the paper recommends it after Fig. 12; tessellate=false: as it was).
 //         Algorithm 2 leaves open which space P and N are in and turns the view ray as the normal turns. Here they are
-//         the world's (the triangle's own plane), the ray is Snell's, and the point met goes through the broad phase
+//         the world's (the triangle's own plane), the ray is Snell's, and the point hit goes through the broad phase
 //         before it is projected: so flat water shows each pixel itself.
 //         as-printed=true has line 8, the turned view ray and the projection as they are printed.
 #include "refraction/broad/path_length_map.h"
