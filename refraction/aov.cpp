@@ -1,6 +1,8 @@
 #include "refraction/aov.h"
 
 #include <limits>
+#include <string_view>
+#include <type_traits>
 
 #include "raster/geometry_lookup.h"
 
@@ -44,55 +46,45 @@ Waves waves_of(const AovIn& in, const Pixel& p) {
           displaced_normal<float>(body, *optics.surface(), position)};
 }
 
-// The AOVs: name and channels, and the value of a pixel, of one of three kinds.
+// An AOV: its name and channels, and how a pixel's value is found. One of the three functions converts what targets
+// hold; where all are null the AOV is a target as it is, by the table of targets (refraction/data/targets.h).
 struct Row {
   AovInfo info;
-  float (*number)(const AovIn&, const Pixel&);
-  Vec3f (*vector)(const AovIn&, const Pixel&);
-  std::uint32_t (*count)(const AovIn&, const Pixel&);
+  float (*number)(const AovIn&, const Pixel&) = nullptr;
+  Vec3f (*vector)(const AovIn&, const Pixel&) = nullptr;
+  std::uint32_t (*count)(const AovIn&, const Pixel&) = nullptr;
 };
 
-Row number(Aov aov, const char* name, const char* channels, float (*value)(const AovIn&, const Pixel&)) {
-  return {{aov, name, channels, false}, value, nullptr, nullptr};
+std::uint32_t node_of(const AovIn& in, const Pixel& p) {
+  if (p.triangle()) return in.scene.geometry.drawables[drawable_of(in.scene.geometry, p.id)].node;
+  return p.water() ? in.scene.waters[p.body()].node : kNoneOut;
 }
-Row vector(Aov aov, const char* name, Vec3f (*value)(const AovIn&, const Pixel&)) {
-  return {{aov, name, "XYZ", false}, nullptr, value, nullptr};
+std::uint32_t mask_of(const AovIn&, const Pixel& p) {
+  return p.water() ? static_cast<std::uint32_t>(p.body()) + 1u : 0u;
 }
-Row count(Aov aov, const char* name, std::uint32_t (*value)(const AovIn&, const Pixel&)) {
-  return {{aov, name, "", true}, nullptr, nullptr, value};
+std::uint32_t triangle_of(const AovIn&, const Pixel& p) { return id_out(p.id); }
+std::uint32_t hit_of(const AovIn& in, const Pixel& p) { return id_out(in.targets.hits.id[p.slot]); }
+Vec3f image_of(const AovIn& in, const Pixel& p) {
+  return at(p.water() ? in.targets.hits.virtual_world : in.targets.gbuffer.position_world, p.slot);
 }
+float height_of(const AovIn& in, const Pixel& p) { return waves_of(in, p).height_m; }
+Vec3f normal_of(const AovIn& in, const Pixel& p) { return waves_of(in, p).normal; }
 
 const std::vector<Row>& rows() {
   static const std::vector<Row> all = {
-      number(Aov::kDepth, "depth", "Z", &depth_m),
-      vector(Aov::kNormal, "normal",
-             [](const AovIn& in, const Pixel& p) { return at(in.targets.gbuffer.normal_world, p.slot); }),
-      vector(Aov::kPosition, "position",
-             [](const AovIn& in, const Pixel& p) { return at(in.targets.gbuffer.position_world, p.slot); }),
-      count(Aov::kIdTriangle, "id.triangle", [](const AovIn&, const Pixel& p) { return id_out(p.id); }),
-      count(Aov::kIdNode, "id.node",
-            [](const AovIn& in, const Pixel& p) {
-              if (p.triangle()) return in.scene.geometry.drawables[drawable_of(in.scene.geometry, p.id)].node;
-              return p.water() ? in.scene.waters[p.body()].node : kNoneOut;
-            }),
-      vector(Aov::kVirtual, "virtual",
-             [](const AovIn& in, const Pixel& p) {
-               return at(p.water() ? in.targets.hits.virtual_world : in.targets.gbuffer.position_world, p.slot);
-             }),
-      count(Aov::kWaterMask, "water.mask",
-            [](const AovIn&, const Pixel& p) { return p.water() ? static_cast<std::uint32_t>(p.body()) + 1u : 0u; }),
-      number(Aov::kSurfaceHeight, "surface.height", "",
-             [](const AovIn& in, const Pixel& p) { return waves_of(in, p).height_m; }),
-      vector(Aov::kSurfaceNormal, "surface.normal",
-             [](const AovIn& in, const Pixel& p) { return waves_of(in, p).normal; }),
-      count(Aov::kHitKind, "hit.kind",
-            [](const AovIn& in, const Pixel& p) { return static_cast<std::uint32_t>(in.targets.hits.kind[p.slot]); }),
-      vector(Aov::kHitPosition, "hit.position",
-             [](const AovIn& in, const Pixel& p) { return at(in.targets.hits.position_world, p.slot); }),
-      count(Aov::kHitId, "hit.id", [](const AovIn& in, const Pixel& p) { return id_out(in.targets.hits.id[p.slot]); }),
-      count(
-          Aov::kHitOutside, "hit.outside",
-          [](const AovIn& in, const Pixel& p) { return static_cast<std::uint32_t>(in.targets.hits.outside[p.slot]); }),
+      {.info = {Aov::kDepth, "depth", "Z", false}, .number = &depth_m},
+      {.info = {Aov::kNormal, "normal", "XYZ", false}},
+      {.info = {Aov::kPosition, "position", "XYZ", false}},
+      {.info = {Aov::kIdTriangle, "id.triangle", "", true}, .count = &triangle_of},
+      {.info = {Aov::kIdNode, "id.node", "", true}, .count = &node_of},
+      {.info = {Aov::kVirtual, "virtual", "XYZ", false}, .vector = &image_of},
+      {.info = {Aov::kWaterMask, "water.mask", "", true}, .count = &mask_of},
+      {.info = {Aov::kSurfaceHeight, "surface.height", "", false}, .number = &height_of},
+      {.info = {Aov::kSurfaceNormal, "surface.normal", "XYZ", false}, .vector = &normal_of},
+      {.info = {Aov::kHitKind, "hit.kind", "", true}},
+      {.info = {Aov::kHitPosition, "hit.position", "XYZ", false}},
+      {.info = {Aov::kHitId, "hit.id", "", true}, .count = &hit_of},
+      {.info = {Aov::kHitOutside, "hit.outside", "", true}},
   };
   return all;
 }
@@ -117,26 +109,47 @@ const std::vector<AovInfo>& aov_infos() {
   return infos;
 }
 
+namespace {
+
+// The planes of the target that an AOV shows as it is, interleaved.
+void copy_target(const AovIn& in, const Row& row, AovImage& image) {
+  std::vector<const FloatPlane*> floats;
+  visit_planes(in.targets, TargetNeeds{}, [&](const TargetInfo& info, const auto& plane) {
+    if (info.aov == nullptr || std::string_view(info.aov) != row.info.name) return;
+    if constexpr (std::is_same_v<decltype(plane), const FloatPlane&>)
+      floats.push_back(&plane);
+    else
+      for_each_pixel(in.frame, in.targets.direct,
+                     [&](const Pixel& p) { image.uints.push_back(static_cast<std::uint32_t>(plane[p.slot])); });
+  });
+  if (floats.empty()) return;
+  image.channels = static_cast<int>(floats.size());
+  for_each_pixel(in.frame, in.targets.direct, [&](const Pixel& p) {
+    for (const FloatPlane* plane : floats) image.floats.push_back((*plane)[p.slot]);
+  });
+}
+
+void copy_converted(const AovIn& in, const Row& row, AovImage& image) {
+  const auto each = [&](auto body) { for_each_pixel(in.frame, in.targets.direct, body); };
+  if (row.count != nullptr) each([&](const Pixel& p) { image.uints.push_back(row.count(in, p)); });
+  if (row.number != nullptr) each([&](const Pixel& p) { image.floats.push_back(row.number(in, p)); });
+  if (row.vector == nullptr) return;
+  image.channels = 3;
+  each([&](const Pixel& p) {
+    const Vec3f v = row.vector(in, p);
+    image.floats.insert(image.floats.end(), {v.x, v.y, v.z});
+  });
+}
+
+}  // namespace
+
 void copy_aovs(const AovIn& in, std::uint32_t aovs, Frame& out) {
   out.aovs.clear();
-  const std::size_t pixels = static_cast<std::size_t>(in.frame.width_px) * static_cast<std::size_t>(in.frame.height_px);
   for (const Row& row : rows()) {
     if (((aovs >> static_cast<int>(row.info.aov)) & 1u) == 0) continue;
     AovImage image{row.info.aov, 1, {}, {}};
-    if (row.count != nullptr) {
-      image.uints.reserve(pixels);
-      for_each_pixel(in.frame, in.targets.direct, [&](const Pixel& p) { image.uints.push_back(row.count(in, p)); });
-    } else if (row.vector != nullptr) {
-      image.channels = 3;
-      image.floats.reserve(pixels * 3);
-      for_each_pixel(in.frame, in.targets.direct, [&](const Pixel& p) {
-        const Vec3f v = row.vector(in, p);
-        image.floats.insert(image.floats.end(), {v.x, v.y, v.z});
-      });
-    } else {
-      image.floats.reserve(pixels);
-      for_each_pixel(in.frame, in.targets.direct, [&](const Pixel& p) { image.floats.push_back(row.number(in, p)); });
-    }
+    const bool converts = row.number != nullptr || row.vector != nullptr || row.count != nullptr;
+    converts ? copy_converted(in, row, image) : copy_target(in, row, image);
     out.aovs.push_back(std::move(image));
   }
 }

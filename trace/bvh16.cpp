@@ -23,7 +23,8 @@ void extend(Box& box, const Box& by) {
 // parts of the coordinates' size.
 Box grown(Box box) {
   const auto grow = [](float& lo, float& hi) {
-    const float by = (hi - lo) * 2e-5f + std::max(std::fabs(lo), std::fabs(hi)) * 2e-6f;
+    const float by =
+        (hi - lo) * Bvh16::kGrowthOfSize + std::max(std::fabs(lo), std::fabs(hi)) * Bvh16::kGrowthOfCoordinates;
     lo -= by, hi += by;
   };
   grow(box.lo.x, box.hi.x), grow(box.lo.y, box.hi.y), grow(box.lo.z, box.hi.z);

@@ -20,6 +20,9 @@ namespace shoal {
 struct Bvh16 {
   static constexpr int kWidth = 16;
   static constexpr std::int32_t kNone = 0x7FFFFFFF;
+  // Boxes are grown by these parts of their own size and of their coordinates: by more than the slack of the triangle
+  // test (raster/triangle_test.h) and the rounding of the box test.
+  static constexpr float kGrowthOfSize = 2e-5f, kGrowthOfCoordinates = 2e-6f;
   static constexpr int kMaxLevels = 68;  // of nodes, for every scene
   // Boxes, world, m, by axis; empty places hold an inverted one.
   struct alignas(64) Boxes {

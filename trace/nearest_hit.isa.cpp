@@ -146,7 +146,8 @@ class Search {
     for (int a = 0; a < 3; ++a) {
       const WideF p0 = WideF::load(leaf.p0[a]), e1 = WideF::load(leaf.e1[a]), e2 = WideF::load(leaf.e2[a]);
       const WideF lo = p0 + min(min(e1, e2), WideF(0.0f)), hi = p0 + max(max(e1, e2), WideF(0.0f));
-      const WideF by = (hi - lo) * WideF(2e-5f) + max(abs(lo), abs(hi)) * WideF(2e-6f);
+      const WideF by =
+          (hi - lo) * WideF(Bvh16::kGrowthOfSize) + max(abs(lo), abs(hi)) * WideF(Bvh16::kGrowthOfCoordinates);
       (lo - by).store(boxes.lo[a]), (hi + by).store(boxes.hi[a]);
     }
   }

@@ -83,11 +83,12 @@ struct TargetNeeds {
   bool linear = false;     // linear light is kept or averaged
 };
 
-// How a target's planes are numbered and digested.
+// A row of the table of targets.
 struct TargetInfo {
   const char* stage;  // the digest's name; null: the target is in no digest
   bool of_layers;     // on the layers' grid, drawn regions only; else on the frame's
   bool exists;
+  const char* aov = nullptr;  // the AOV that shows the target as it is (refraction/aov.cpp has those that convert)
 };
 
 // Calls visit(TargetInfo, plane) for every plane of every target in the order of their digests.
@@ -110,11 +111,15 @@ void visit_planes(T& t, const TargetNeeds& needs, Visit visit) {
   visit(interface, t.interface.slope_variance);
   xyz(interface, t.interface.refracted), xyz(interface, t.interface.reflected);
   const TargetInfo gbuffer{"gbuffer", false, needs.capture};
-  xyz(gbuffer, t.gbuffer.position_world), xyz(gbuffer, t.gbuffer.normal_world), xyz(gbuffer, t.gbuffer.base_color);
+  xyz({"gbuffer", false, needs.capture, "position"}, t.gbuffer.position_world);
+  xyz({"gbuffer", false, needs.capture, "normal"}, t.gbuffer.normal_world);
+  xyz(gbuffer, t.gbuffer.base_color);
   visit(gbuffer, t.gbuffer.metallic), visit(gbuffer, t.gbuffer.roughness);
-  const TargetInfo hit{"hit", false, needs.capture}, beside_hit{nullptr, false, needs.capture};
-  visit(hit, t.hits.kind), visit(hit, t.hits.id), xyz(hit, t.hits.position_world);
-  xyz(beside_hit, t.hits.virtual_world), visit(beside_hit, t.hits.outside);
+  visit(TargetInfo{"hit", false, needs.capture, "hit.kind"}, t.hits.kind);
+  visit(TargetInfo{"hit", false, needs.capture}, t.hits.id);
+  xyz({"hit", false, needs.capture, "hit.position"}, t.hits.position_world);
+  xyz({nullptr, false, needs.capture}, t.hits.virtual_world);
+  visit(TargetInfo{nullptr, false, needs.capture, "hit.outside"}, t.hits.outside);
   xyz(TargetInfo{nullptr, false, needs.water}, t.water_light.radiance);
   const TargetInfo lit{"lit", false, needs.linear};
   visit(lit, t.lit.red), visit(lit, t.lit.green), visit(lit, t.lit.blue), visit(lit, t.lit.alpha);
