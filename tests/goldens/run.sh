@@ -1,106 +1,112 @@
 #!/bin/bash
-# Goldens: small frames of the built-in scenes, every camera and method, and of the files of data/assets/, equal to the
-# digest.
+# Goldens through the command, and goldens anew.
 #
-#   run.sh SHOAL            compares; a failure leaves actual, expected and difference pictures in out/goldens/
-#   run.sh SHOAL --update   writes what SHOAL makes instead (scripts/update_goldens does this, and asks for the reason)
+#   run.sh SHOAL GOLDEN_TOOL GROUP...   the groups are all of golden_tool's, every golden belongs to a frame of one, and
+#                                       the command draws what golden_tool draws: of each group and of each method one
+#                                       frame at least. (golden_tool GROUP compares all frames of a group.)
+#   run.sh SHOAL GOLDEN_TOOL --update   draws with the command every frame that golden_tool finds changed, and keeps it
+#                                       as the golden (scripts/update_goldens does this, and asks for the reason)
 #
-# A golden is SCENE_CAMERA_METHOD.txt (with the options of water.list WATER_METHOD.txt, for a file
-# asset-FILE_CAMERA_TIME.txt), the digest of each stage, and .png, the picture. There is no tolerance. A golden that is missing fails, and so does one that belongs to no scene, camera or
-# method.
+# A golden is NAME.txt, the digest of each stage, and NAME.png, the picture. There is no tolerance. A golden that is
+# missing fails, and so does one that belongs to no scene, camera or method.
 set -uo pipefail
-shoal=$(realpath "${1:?usage: run.sh SHOAL [--update]}")
-update=${2:-}
-cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+shoal=$(realpath "${1:?usage: run.sh SHOAL GOLDEN_TOOL --update | GROUP...}")
+tool=$(realpath "${2:?usage: run.sh SHOAL GOLDEN_TOOL --update | GROUP...}")
+shift 2
+cd "$(dirname "${BASH_SOURCE[0]}")/../.." || exit
 goldens=tests/goldens
 out=out/goldens
-rm -rf $out
 mkdir -p $out
-scenes=(box pool)
-options=(--triangles 2000 --size 160x90 --quiet)
-assets=data/assets
-asset_options=(--method two-phase --size 320x180 --quiet)
-status=0 compared=0
-declare -A known
+status=0
 complain() { echo "$*"; status=1; }
 
-cameras_of() {
-  "$shoal" info "$1" --triangles 2000 | awk '/^[^ ]/ { on = $1 == "cameras"; next } on && /^  [^ ]/ { print $1 }'
+if ! frames=$("$tool" --frames) || ! groups=$("$tool" --groups); then exit 1; fi
+
+# strays: goldens that no frame has.
+strays() {
+  comm -13 <(awk '{ print $2 }' <<<"$frames" | LC_ALL=C sort -u) \
+    <(find $goldens \( -name '*.txt' -o -name '*.png' \) ! -name CMakeLists.txt -printf '%f\n' | sed 's/\.[a-z]*$//' | LC_ALL=C sort -u)
 }
 
-# same NAME: digests, and pixels of the picture.
-same() {
-  cmp -s "$goldens/$1.txt" "$out/$1.txt" && [[ -f $goldens/$1.png ]] &&
-    "$shoal" diff --quiet "$goldens/$1.png" "$out/$1.actual.png"
+# draw NAME METHOD ARGUMENT...: draws a frame: NAME.command.txt and NAME.command.png.
+draw() {
+  local name=$1 method=$2
+  shift 2
+  "$shoal" render "$@" --method "$method" --quiet --digest -o "$out/$name.command.png" </dev/null >"$out/$name.command.txt" ||
+    complain "$name: the command did not draw it"
 }
 
-# compare NAME: the first stage that differs, and the first pixel of the picture that does.
-compare() {
-  local name=$1 stage expected=$goldens/$1.png
-  compared=$((compared + 1))
-  if [[ ! -f $goldens/$name.txt || ! -f $expected ]]; then
-    complain "$name: there is no such golden; look at $out/$name.actual.png, then scripts/update_goldens --reason TEXT"
-    return
-  fi
-  if same "$name"; then
-    rm -f "$out/$name".*
-    return
-  fi
-  cp "$expected" "$out/$name.expected.png"
-  stage=$(diff "$goldens/$name.txt" "$out/$name.txt" | awk '$1 == "<" || $1 == ">" { print $3; exit }')
-  local pixel
-  pixel=$("$shoal" diff "$expected" "$out/$name.actual.png" --map "$out/$name.difference.png" | awk '$1 == "first"')
-  complain "$name: first stage that differs: ${stage:-none}; pixel: ${pixel:-none of the picture}; see $out/$name.*.png"
-}
-
-# frame NAME ARGUMENT...: renders it; then compares, or writes the golden.
-frame() {
-  local name=$1
-  shift
-  known[$name]=1
-  if ! "$shoal" render "$@" --digest -o "$out/$name.actual.png" </dev/null >"$out/$name.txt" 2>"$out/$name.err"; then
-    # A method that is not made for the scene has no golden.
-    if grep -q 'is not applicable' "$out/$name.err"; then unset "known[$name]"; return; fi
-    complain "$name: was not rendered: $(cat "$out/$name.err")"
-    return
-  fi
-  if [[ $update != --update ]]; then
-    compare "$name"
-    return
-  fi
-  compared=$((compared + 1))
-  if same "$name"; then return; fi
-  mv "$out/$name.txt" "$goldens/$name.txt"
-  mv "$out/$name.actual.png" "$goldens/$name.png"
-  echo "$name"
-}
-
-methods=$("$shoal" list methods | awk '!/not the same bytes/ { print $1 }')
-for scene in "${scenes[@]}"; do
-  for camera in $(cameras_of "$scene"); do
-    for method in $methods; do
-      frame "${scene}_${camera}_$method" "$scene" --camera "$camera" --method "$method" "${options[@]}"
-    done
+if [[ ${1:-} == --update ]]; then
+  for group in $groups; do
+    changed=$("$tool" "$group" --changed) || { complain "group $group: $changed"; continue; }
+    while read -r word name method arguments; do
+      case $word in
+        '#') ;;
+        removed)
+          rm -f "$goldens/$name.txt" "$goldens/$name.png"
+          echo "$name (removed)"
+          ;;
+        *)
+          # shellcheck disable=SC2086  # arguments are words
+          draw "$name" "$method" $arguments
+          if ! cmp -s "$out/$name.txt" "$out/$name.command.txt"; then
+            complain "$name: the command and golden_tool differ: $out/$name.command.txt, $out/$name.txt"
+            continue
+          fi
+          mv "$out/$name.command.txt" "$goldens/$name.txt"
+          mv "$out/$name.command.png" "$goldens/$name.png"
+          rm -f "$out/$name".*
+          echo "$name"
+          ;;
+      esac
+    done <<<"$changed"
   done
-done
-while read -r name arguments; do
-  for method in $methods; do
-    # shellcheck disable=SC2086  # arguments are words
-    frame "${name}_$method" $arguments --method "$method" "${options[@]}"
-  done
-done <$goldens/water.list
-while read -r asset camera time; do
-  frame "asset-${asset}_${camera}_$time" "$assets/$asset.glb" --camera "$camera" --time "$time" "${asset_options[@]}"
-done <$goldens/assets.list
-for file in "$goldens"/*.txt; do
-  name=$(basename "$file" .txt)
-  [[ -e $file && -z ${known[$name]:-} ]] || continue
-  if [[ $update == --update ]]; then
+  for name in $(strays); do
     rm -f "$goldens/$name.txt" "$goldens/$name.png"
     echo "$name (removed)"
+  done
+  exit $status
+fi
+
+[[ $* == $(tr '\n' ' ' <<<"$groups" | sed 's/ $//') ]] || complain "ctest compares the groups: $*; expected: ${groups//$'\n'/ }"
+for name in $(strays); do complain "$name: belongs to no scene, camera or method"; done
+
+# pick_frames: of each group a frame by a method that no other group's has, while there is one; then the first frame of
+# each method that is left. The groups with the fewest frames choose first.
+pick_frames() {
+  awk -v folder=$goldens '
+    { golden = folder "/" $2 ".txt"; if ((getline line <golden) < 0) next; close(golden) }  # not made for the scene
+    { frame[++frames] = $0; group[frames] = $1; method[frames] = $3; ++size[$1] }
+    END {
+      while (1) {
+        least = ""
+        for (g in size) if (!(g in chosen) && (least == "" || size[g] < size[least] || size[g] == size[least] && g < least)) least = g
+        if (least == "") break
+        best = 0
+        for (i = frames; i > 0; --i) if (group[i] == least && (!best || !(method[i] in drawn) || method[best] in drawn)) best = i
+        chosen[least] = drawn[method[best]] = 1
+        print frame[best]
+      }
+      for (i = 1; i <= frames; ++i) if (!(method[i] in drawn)) { drawn[method[i]] = 1; print frame[i] }
+    }' <<<"$frames"
+}
+
+declare -A drawn
+compared=0
+while read -r group name method arguments; do
+  drawn[group $group]=1 drawn[method $method]=1
+  compared=$((compared + 1))
+  # shellcheck disable=SC2086  # arguments are words
+  draw "$name" "$method" $arguments
+  if cmp -s "$goldens/$name.txt" "$out/$name.command.txt" &&
+    "$shoal" diff --quiet "$goldens/$name.png" "$out/$name.command.png"; then
+    rm -f "$out/$name.command".*
   else
-    complain "$name: belongs to no scene, camera or method"
+    complain "$name: the command draws another frame: $out/$name.command.txt, .png"
   fi
-done
-if (( compared < 10 )); then complain "only $compared frames were rendered"; fi
+done < <(pick_frames)
+methods=$("$shoal" list methods | awk '!/not the same bytes/ { print $1 }')
+for method in $methods; do [[ -n ${drawn[method $method]:-} ]] || complain "$method: no golden was drawn by the command"; done
+for group in $groups; do [[ -n ${drawn[group $group]:-} ]] || complain "$group: no golden was drawn by the command"; done
+echo "$compared frames drawn by the command"
 exit $status
