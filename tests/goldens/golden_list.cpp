@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "refraction/renderer.h"
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "water/surface_keys.h"
 
 namespace goldens {

@@ -26,7 +26,7 @@
 #include "core/error.h"
 #include "core/isa.h"
 #include "refraction/renderer.h"
-#include "scene/images.h"
+#include "scene/images/images.h"
 #include "tests/goldens/golden_list.h"
 
 namespace {
