@@ -95,6 +95,8 @@ function(shoal_add_kernels target)
     set(objects ${target}_${isa})
     add_library(${objects} OBJECT ${ARGN})
     shoal_use_isa(${objects} ${isa})
+    # Templates that are long and have many callers are compiled once an instruction set (water/exact_ray.isa.cpp).
+    target_compile_definitions(${objects} PRIVATE SHOAL_SHARED_TEMPLATES=1)
     target_link_libraries(${objects} PRIVATE shoal_flags)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${objects}>)
   endforeach()

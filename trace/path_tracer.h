@@ -11,6 +11,7 @@
 #pragma once
 
 #include "raster/resolve.h"
+#include "scene/rough_mirror.h"
 #include "scene/scene_view.h"
 #include "scene/water_absorption.h"
 #include "shading/block_color.h"
@@ -19,7 +20,6 @@
 #include "trace/path.h"
 #include "trace/trace_rays.h"
 #include "water/exact_ray.h"
-#include "water/rough_mirror.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 

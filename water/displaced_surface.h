@@ -52,8 +52,8 @@ SHOAL_INLINE Stretch<F> over_triangle(const Vec3f* corner, Vec3f normal, const R
 //   t_min  >= 0, in the direction's lengths; lanes: the rays that are wanted
 // Returns t, infinity where it does not; error as intersect_surface.
 template <class F>
-SHOAL_INLINE F meet_displaced(const WaterBody& body, const WaterSurface& surface, const Ray<F>& ray, F t_min,
-                              MaskOf<F> lanes) {
+__attribute__((noinline)) F meet_displaced(const WaterBody& body, const WaterSurface& surface, const Ray<F>& ray,
+                                           F t_min, MaskOf<F> lanes) {
   const Vec3<F> origin = on_body(body, ray.origin_world), direction = along_axes(body, ray.direction_world);
   F first = F(kInfinity);
   for (std::size_t i = 0; i + 2 < body.outline.size(); i += 3) {
@@ -67,7 +67,8 @@ SHOAL_INLINE F meet_displaced(const WaterBody& body, const WaterSurface& surface
 
 // The surface's normal over a point near it, on the plane normal's side.
 template <class F>
-SHOAL_INLINE Vec3<F> displaced_normal(const WaterBody& body, const WaterSurface& surface, Vec3<F> position_world) {
+__attribute__((noinline)) Vec3<F> displaced_normal(const WaterBody& body, const WaterSurface& surface,
+                                                   Vec3<F> position_world) {
   const Vec3<F> p = on_body(body, position_world);
   const SurfacePoint<F> at = surface_at<F>(surface, p.x, p.z);
   return surface_normal<F>(broadcast<F>(body.axis_x), broadcast<F>(body.normal), broadcast<F>(body.axis_z), at.slope_x,
@@ -81,7 +82,7 @@ SHOAL_INLINE Vec3<F> displaced_normal(const WaterBody& body, const WaterSurface&
 //   rounding); two of them move the height by slope_bound times that, the third is the height itself; the surface's own
 //   arithmetic adds 4e-6 of its bound (water/noise.h). The lifted point is rounded alike: twice that.
 template <class F>
-SHOAL_INLINE F surface_lift(const WaterBody& body, const WaterSurface& surface, Vec3<F> position_world) {
+__attribute__((noinline)) F surface_lift(const WaterBody& body, const WaterSurface& surface, Vec3<F> position_world) {
   const Vec3<F> p = on_body(body, position_world);
   const F gap = p.y - surface_at<F>(surface, p.x, p.z).height_m;
   const F size = (abs(p.x) + abs(p.y) + abs(p.z)) +
@@ -92,5 +93,12 @@ SHOAL_INLINE F surface_lift(const WaterBody& body, const WaterSurface& surface, 
   // Along a slanting normal: 1 / cosine.
   return (abs(gap) + rounding) * F(sqrt(1.0f + slope * slope));
 }
+
+#if defined(SHOAL_SHARED_TEMPLATES)
+// Compiled once an instruction set, in water/exact_ray.isa.cpp.
+extern template WideF meet_displaced(const WaterBody&, const WaterSurface&, const Ray<WideF>&, WideF, WideM);
+extern template Vec3<WideF> displaced_normal(const WaterBody&, const WaterSurface&, Vec3<WideF>);
+extern template WideF surface_lift(const WaterBody&, const WaterSurface&, Vec3<WideF>);
+#endif
 
 }  // namespace shoal::inline SHOAL_ISA_NS

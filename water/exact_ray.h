@@ -85,7 +85,7 @@ SHOAL_INLINE FilteredPoint<F> waves_at(const WaterBody& body, const WaterSurface
 
 // The waves' normal at the crossing, bent to one that the plane can bear (water/valid_normal.h).
 template <class F>
-SHOAL_INLINE void bend_normal(const WaterSide& side, ExactRay<F>& out) {
+__attribute__((noinline)) void bend_normal(const WaterSide& side, ExactRay<F>& out) {
   const WaterBody& body = *side.body;
   const Vec3<F> axis_x = broadcast<F>(body.axis_x), axis_z = broadcast<F>(body.axis_z);
   const FilteredPoint<F> waves = waves_at(body, *side.surface, side.pixel, out);
@@ -117,8 +117,9 @@ SHOAL_INLINE void go_on_from(ExactRay<F>& out) {
 //   pixel  of an eye's ray, to filter waves over; where the filtered normal faces away from the ray, its own stays
 // Returns all of ExactRay, with the surface's tangent plane for the plane.
 template <class F>
-SHOAL_INLINE ExactRay<F> displaced_ray(const WaterBody& body, const WaterSurface& surface, const Ray<F>& ray, F t,
-                                       const RayDifferential<float>* pixel = nullptr) {
+__attribute__((noinline)) ExactRay<F> displaced_ray(const WaterBody& body, const WaterSurface& surface,
+                                                    const Ray<F>& ray, F t,
+                                                    const RayDifferential<float>* pixel = nullptr) {
   ExactRay<F> out;
   out.crosses = t < F(3e38f);
   out.t = select(out.crosses, t, F(0.0f));
@@ -146,9 +147,8 @@ SHOAL_INLINE ExactRay<F> displaced_ray(const WaterBody& body, const WaterSurface
   go_on_from(out);
   return out;
 }
-// Out of line, because it is long and has several callers.
 template <class F>
-__attribute__((noinline)) inline ExactRay<F> displaced_ray(const WaterSide& side, const Ray<F>& ray) {
+SHOAL_INLINE ExactRay<F> displaced_ray(const WaterSide& side, const Ray<F>& ray) {
   const F t = meet_displaced(*side.body, *side.surface, ray, F(side.t_near), F(0.0f) == F(0.0f));
   return displaced_ray(*side.body, *side.surface, ray, t, side.pixel);
 }
@@ -228,5 +228,12 @@ SHOAL_INLINE RayDifferential<F> reflected_differential(RayDifferential<F> crossi
   return {crossing.origin_dx, crossing.origin_dy, reflect(crossing.direction_dx, hit.normal),
           reflect(crossing.direction_dy, hit.normal)};
 }
+
+#if defined(SHOAL_SHARED_TEMPLATES)
+// Compiled once an instruction set, in water/exact_ray.isa.cpp.
+extern template void bend_normal(const WaterSide&, ExactRay<WideF>&);
+extern template ExactRay<WideF> displaced_ray(const WaterBody&, const WaterSurface&, const Ray<WideF>&, WideF,
+                                              const RayDifferential<float>*);
+#endif
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -2,8 +2,8 @@
 #include "refraction/passes/interface_pass.h"
 
 #include "refraction/data/capture.h"
+#include "scene/rough_mirror.h"
 #include "shading/sky.h"
-#include "water/rough_mirror.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
