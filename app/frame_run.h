@@ -1,4 +1,4 @@
-// The frames of a run: where the camera is in each, and how they are timed (DESIGN.md 5, --time to --repeat).
+// The frames of a run: where the camera is in each, and how they are timed (docs/command.md, --time to --repeat).
 #pragma once
 
 #include <cstdint>

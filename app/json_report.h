@@ -39,7 +39,7 @@ struct RunTimes {
 
 double median(std::vector<double> values);
 
-// `render --json` (DESIGN.md 5): its keys, in its order.
+// The report of `render --json`: the order of its keys is part of the format.
 Json render_report(const Options& options, const LoadedScene& loaded, const PlacedCamera& camera, int threads,
                    const Frame& first_frame, const RunTimes& times);
 

@@ -106,7 +106,8 @@ void add_compare_options(CLI::App& command, CompareArguments& compare) {
   const AddOption add = adder(command);
   add("-o", raw.output, "DIR", "the folder: report.html, metrics.json, pictures; made where there is none");
   add("--methods", raw.methods, "A,B", "all but the reference (shoal list methods)");
-  add("--reference", raw.reference, "NAME", "what is taken as the truth; ray-traced, until it has come two-phase");
+  add("--reference", raw.reference, "NAME",
+      "the method that the others are compared with; ray-traced, or two-phase in a build without it");
   add_picture_options(command, raw);
   add("--warmup", raw.warmup, "N", "uncounted frames before repeated ones; 3");
   add("--repeat", raw.repeat, "N",

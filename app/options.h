@@ -1,4 +1,4 @@
-// The options of `shoal render` and `shoal probe`: as typed, and as understood (DESIGN.md 5).
+// The options of `shoal render` and `shoal probe`: as typed, and as read (docs/command.md).
 #pragma once
 
 #include <cstdint>

@@ -26,7 +26,7 @@ void direct_pass(benchmark::State& state, const RenderScene& scene, Part part, i
   double in = 0, out = 0;
   for (auto _ : state) {
     if ((part & kFrontEnd) != 0) {
-      stages.look(turned_left(first_camera(scene), k++ % kCameras));
+      stages.set_camera(turned_left(first_camera(scene), k++ % kCameras));
       stages.front_end();
     }
     if ((part & kTiles) != 0) stages.tiles();
@@ -81,13 +81,14 @@ struct FillCase {
 
 template <class Targets>
 void fill(benchmark::State& state, const FillCase& c, Targets& targets,
-          void (*fill_region)(const FrameData&, Targets&, std::size_t)) {
+          void (*fill_region)(const VisibleIn&, Targets&, std::size_t)) {
   const RenderScene scene = make_quad(c.texture_size);
   Stages stages(scene, kWidth, kHeight, c.threads);
   stages.front_end();
   stages.tiles();
   const auto fill_frame = [&] {
-    stages.for_each_region([&](std::size_t region) { fill_region(stages.frame(), targets, region); });
+    const VisibleIn in{stages.scene().shading, stages.view(), stages.direct()};
+    stages.for_each_region([&](std::size_t region) { fill_region(in, targets, region); });
   };
   fill_frame();  // the pages of the targets are there when time starts
   for (auto _ : state) {
@@ -146,7 +147,7 @@ void resolve(benchmark::State& state) {
     ids[i] = static_cast<std::int32_t>(i / 16 * 16 + i % 16 * static_cast<std::size_t>(distinct) / 16);
   float out[16];
   for (auto _ : state) {
-    raster_kernels(isa()).resolve(stages.frame().geometry, stages.frame().view, ids.data(), kBlocks, out);
+    raster_kernels(isa()).resolve(stages.scene().geometry(), stages.view(), ids.data(), kBlocks, out);
     benchmark::DoNotOptimize(out);
   }
   count_items(state, "pix", kBlockPixelCount);

@@ -17,12 +17,16 @@ constexpr std::size_t kPoints = 1024;
 // The eye of pool's camera above its water, and points in it.
 struct Water {
   Stages stages{pool_scene(kPoolSizes[0].triangles), kWidth, kHeight, 1};
+  std::vector<WaterOptics> optics;
   std::vector<float> points, ends;  // edges go from a point to its end: some centimetres, as in a mesh
   std::vector<float> far_m, across_m;
 
   Water() {
-    place_water(stages.frame(), find_method("two-phase", isa()).kernels);
-    const WaterBody& body = *pass().body;
+    const WaterBody& body = pool_scene(kPoolSizes[0].triangles).waters.front();
+    const PlacedWater flat{&body, nullptr, 0};
+    std::int32_t eye_in_water = -1;
+    place_water({{&flat, 1}, stages.view(), find_method("two-phase", isa()).kernels.map, true, false},
+                {optics, eye_in_water});
     Random random;
     points.resize(3 * kPoints), ends.resize(3 * kPoints);
     for (std::size_t i = 0; i < kPoints; ++i) {
@@ -35,7 +39,8 @@ struct Water {
       across_m.push_back(random.between(0, 15));
     }
   }
-  const WaterPass& pass() { return stages.frame().water.front(); }
+  const BroadPhase& exact() const { return optics.front().exact; }
+  const BroadPhase& map() const { return optics.front().map; }
 };
 
 // Runs `kernel`(Water&, out), which does kPoints points.
@@ -54,9 +59,9 @@ void points(benchmark::State& state, Kernel kernel) {
 void exact_rays(benchmark::State& state) {
   Water water;
   float out[16];
-  const std::size_t region = water.stages.regions() / 2;
+  const std::size_t region = water.stages.grid().region_count() / 2;
   for (auto _ : state) {
-    refraction_kernels(isa()).exact_ray(water.pass().optics, water.stages.frame(), region, out);
+    refraction_kernels(isa()).exact_ray(water.exact(), water.stages.view(), water.stages.grid(), region, out);
     benchmark::DoNotOptimize(out);
   }
   count_items(state, "pix", kRegionSize * kRegionSize);
@@ -92,8 +97,8 @@ void solve_paths(benchmark::State& state, const Solver& solver) {
   PathTable table;
   points(state, [&](Water& w, float* out) {
     if (solver.way == PathWay::kTable && table.size == 0)
-      table = make_path_table(w.pass().map.path, static_cast<std::size_t>(solver.steps));
-    refraction_kernels(isa()).solve(w.pass().map, solver.way, solver.steps, table, w.far_m.data(), w.across_m.data(),
+      table = make_path_table(w.map().path, static_cast<std::size_t>(solver.steps));
+    refraction_kernels(isa()).solve(w.map(), solver.way, solver.steps, table, w.far_m.data(), w.across_m.data(),
                                     kPoints, out);
   });
 }
@@ -105,8 +110,9 @@ void confirm(benchmark::State& state, std::uint64_t triangles, bool by_neighbour
   stages.tiles();
   std::int32_t out[16];
   for (auto _ : state) {
+    const VisibleIn in{stages.scene().shading, stages.view(), stages.direct()};
     stages.for_each_region(
-        [&](std::size_t region) { refraction_kernels(isa()).confirm(stages.frame(), by_neighbours, region, out); });
+        [&](std::size_t region) { refraction_kernels(isa()).confirm(in, by_neighbours, region, out); });
     benchmark::DoNotOptimize(out);
   }
   count_items(state, "pix", double{kWidth} * kHeight);
@@ -118,17 +124,17 @@ void register_benchmarks() {
   const RefractionKernels& kernels = refraction_kernels(isa());
   add("path_solver/pool/1024", [&](auto& state) {
     points(state, [&](Water& w, float* out) {
-      kernels.virtual_distance(w.pass().map, w.far_m.data(), w.across_m.data(), kPoints, out);
+      kernels.virtual_distance(w.map(), w.far_m.data(), w.across_m.data(), kPoints, out);
     });
   });
   for (const Solver& solver : kSolvers)
     add(std::string("path_solvers/") + solver.name + "/1024", [&](auto& state) { solve_paths(state, solver); });
   add("virtual_position/pool/1024", [&](auto& state) {
-    points(state, [&](Water& w, float* out) { kernels.virtual_position(w.pass().map, w.points.data(), kPoints, out); });
+    points(state, [&](Water& w, float* out) { kernels.virtual_position(w.map(), w.points.data(), kPoints, out); });
   });
   add("edge_deviation/pool/1024", [&](auto& state) {
     points(state, [&](Water& w, float* out) {
-      kernels.edge_deviation(w.pass().map, w.stages.frame().view, w.points.data(), w.ends.data(), kPoints, out);
+      kernels.edge_deviation(w.map(), w.stages.view(), w.points.data(), w.ends.data(), kPoints, out);
     });
   });
   add("exact_ray/pool/64x64", exact_rays);

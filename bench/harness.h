@@ -24,8 +24,8 @@ int pool_threads();
 // time stamp counter, whose rate is fixed and is not the core's.
 double clock_hz();
 
-// Counters "M<what>/s" and "cycles/<what>" of `work_items` a benchmark's iteration. The cycles are all threads' together:
-// seconds x threads x clock_hz() / work_items.
+// Counters "M<what>/s" and "cycles/<what>" of `work_items` a benchmark's iteration. The cycles are all threads'
+// together: seconds x threads x clock_hz() / work_items.
 void count_items(benchmark::State& state, const std::string& what, double work_items, int threads = 1);
 
 // Benchmarks on one thread report CPU time, those on a pool the wall's.

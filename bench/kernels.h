@@ -1,4 +1,4 @@
-// Kernels that a suite calls by themselves. kernels_<suite>.cpp is compiled once an ISA and fills one table an ISA.
+// Kernels that a suite calls by themselves. kernels_<suite>.isa.cpp is compiled once an ISA and fills one table an ISA.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,10 @@
 #include "bench/gbuffer_block.h"
 #include "bench/solvers/path_solvers.h"
 #include "core/isa_dispatch.h"
-#include "refraction/frame_data.h"
+#include "raster/visibility.h"
+#include "refraction/broad/broad_phase.h"
+#include "shading/light.h"
+#include "shading/shading_view.h"
 
 namespace shoal::bench {
 
@@ -31,10 +34,17 @@ struct Rgba8Targets {
   AlignedArray<std::int32_t> normal, color, material;
 };
 
+// What shows the surfaces of a frame: visible ids, and what they refer to.
+struct VisibleIn {
+  const ShadingView& shading;
+  const View& view;
+  const VisibilityBuffer& direct;
+};
+
 struct RasterKernels {
   // Visible ids of one 64-pixel region to three targets: what the frame's resolve does, and stores.
-  void (*fill_float)(const FrameData&, FloatTargets&, std::size_t region);
-  void (*fill_rgba8)(const FrameData&, Rgba8Targets&, std::size_t region);
+  void (*fill_float)(const VisibleIn&, FloatTargets&, std::size_t region);
+  void (*fill_rgba8)(const VisibleIn&, Rgba8Targets&, std::size_t region);
   // Sixteen ids a block to attributes; the sum of their depths goes to out, sixteen floats.
   void (*resolve)(const GeometryView&, const View&, const std::int32_t* ids, std::size_t blocks, float* out);
   // A row of blocks along u, uv_step apart by pixel; spread scales the derivatives of every other pixel.
@@ -58,9 +68,9 @@ struct RefractionKernels {
   void (*virtual_position)(const BroadPhase&, const float* points, std::size_t count, float* out);
   void (*edge_deviation)(const BroadPhase&, const View&, const float* a, const float* b, std::size_t count, float* out);
   // View rays of one 64-pixel region to their refracted and reflected rays and differentials.
-  void (*exact_ray)(const BroadPhase&, const FrameData&, std::size_t region, float* out);
-  // confirm_hit of view rays against f.direct; by_neighbours: as if no pixel knew its own triangle.
-  void (*confirm)(const FrameData&, bool by_neighbours, std::size_t region, std::int32_t* out);
+  void (*exact_ray)(const BroadPhase&, const View&, const FrameGrid&, std::size_t region, float* out);
+  // confirm_hit of view rays against the visibility buffer; by_neighbours: as if no pixel had a triangle of its own.
+  void (*confirm)(const VisibleIn&, bool by_neighbours, std::size_t region, std::int32_t* out);
 };
 SHOAL_ISA_TABLE(RefractionKernels, refraction_kernels)
 

@@ -75,15 +75,15 @@ Percentiles percentiles(const std::vector<float>& errors) {
   return {percentile_of(errors, 0.5), percentile_of(errors, 0.95), percentile_of(errors, 0.99)};
 }
 
-std::uint8_t verdict(const Geometry& geometry, const Hits& truth, const Hits& method, std::size_t i) {
-  const HitKind kind = truth.kind_at(i);
+std::uint8_t verdict(const Geometry& geometry, const Hits& reference, const Hits& method, std::size_t i) {
+  const HitKind kind = reference.kind_at(i);
   if (method.kind_at(i) != kind) {
     return HitComparison::kWrongKind | HitComparison::kWrongObject | HitComparison::kWrongSurface;
   }
   std::uint8_t wrong = 0;
-  if (object_of(geometry, truth.id[i]) != object_of(geometry, method.id[i])) wrong |= HitComparison::kWrongObject;
+  if (object_of(geometry, reference.id[i]) != object_of(geometry, method.id[i])) wrong |= HitComparison::kWrongObject;
   const bool has_point = kind == HitKind::kSurface || kind == HitKind::kMirror;
-  if (has_point && distance_m(truth.at(i), method.at(i)) > kWrongSurface_m) wrong |= HitComparison::kWrongSurface;
+  if (has_point && distance_m(reference.at(i), method.at(i)) > kWrongSurface_m) wrong |= HitComparison::kWrongSurface;
   return wrong;
 }
 
@@ -96,13 +96,14 @@ const AovImage* find_aov(const Frame& frame, Aov aov) {
   return nullptr;
 }
 
-HitComparison compare_hits(const RenderScene& scene, const Camera& camera, const Frame& truth, const Frame& method) {
-  if (truth.width_px != method.width_px || truth.height_px != method.height_px) {
+HitComparison compare_hits(const RenderScene& scene, const Camera& camera, const Frame& reference,
+                           const Frame& method) {
+  if (reference.width_px != method.width_px || reference.height_px != method.height_px) {
     throw UsageError("compare_hits: frames of different sizes; expected two of the same");
   }
   const FloatModeGuard mode;
-  const Hits t = hits_of(truth), m = hits_of(method);
-  const Screen screen(scene, camera, truth.width_px, truth.height_px);
+  const Hits t = hits_of(reference), m = hits_of(method);
+  const Screen screen(scene, camera, reference.width_px, reference.height_px);
   const std::size_t pixels = t.mask.size();
   HitComparison out;
   out.water.assign(pixels, false);

@@ -1,4 +1,4 @@
-// Everything that is said of one method's frame against the truth's.
+// All metrics of one method's frame against the reference's.
 #pragma once
 
 #include <optional>
@@ -30,11 +30,11 @@ struct MetricSettings {
   bool yee = false;
 };
 
-// Measures a frame against the truth.
+// Measures a frame against the reference.
 //
-//   scene, camera  as the frames were drawn: compare_hits
-//   truth, method  pictures and kHitAovs, of the same size
-FrameMetrics measure_frame(const RenderScene& scene, const Camera& camera, const Frame& truth, const Frame& method,
+//   scene, camera      as the frames were drawn: compare_hits
+//   reference, method  pictures and kHitAovs, of the same size
+FrameMetrics measure_frame(const RenderScene& scene, const Camera& camera, const Frame& reference, const Frame& method,
                            const MetricSettings& settings, ThreadPool& pool);
 
 }  // namespace shoal

@@ -49,7 +49,7 @@ struct CameraSpec {
   float znear = 0.05f, zfar = 0;  // zfar 0: none given (infinite)
 };
 
-// `extras.water` of a node, as given (DESIGN.md 4). Flat keys such as `water_ior` land here too.
+// `extras.water` of a node, as given (docs/scenes.md). Flat keys such as `water_ior` land here too.
 struct WaterSpec {
   bool has_size = false;
   float size_x = 0, size_z = 0;  // metres, centred on the node

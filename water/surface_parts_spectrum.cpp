@@ -116,7 +116,7 @@ float share_of_wave(double k2, double square_m2) {
 SplineGrid spline_of_sea(const Sea& sea, int side, double square_m2, double finer_m2, WaterSurface& surface,
                          float& covariance) {
   const std::size_t n = static_cast<std::size_t>(side);
-  // Of a wave's height, coefficient, mean square and mean squared derivative of the spline, each way.
+  // The spline's coefficient, mean square and mean squared derivative for a wave's height, each way.
   std::vector<float> response(n);
   std::vector<double> square(n), slope(n);
   for (int i = 0; i < side; ++i) {

@@ -1,8 +1,8 @@
 // The table of the flat path (path_solvers.h), by bisection in double.
 #include <cmath>
 
-#include "core/error.h"
 #include "bench/solvers/path_solvers.h"
+#include "core/error.h"
 
 namespace shoal {
 

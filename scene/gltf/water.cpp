@@ -1,4 +1,4 @@
-// Water, background and environment from extras. The keys are DESIGN.md's, section 4.
+// Water, background and environment from extras. docs/scenes.md lists the keys.
 #include <algorithm>
 #include <cmath>
 #include <set>

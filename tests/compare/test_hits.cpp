@@ -100,7 +100,7 @@ TEST_CASE("hits: objects, kinds and distances", "[hits]") {
   both(4, HitKind::kSky, kNoTriangle, HitKind::kSurface, 0, 0.0f);   // another kind
   both(5, HitKind::kMirror, 0, HitKind::kMirror, 0, 0.5f);           // a mirrored point, half a metre off
   both(6, HitKind::kSky, kNoTriangle, HitKind::kSky, kNoTriangle, 1);  // the sky is the sky
-  show(method, 7, HitKind::kSurface, p, 0);                            // no water in the truth: does not count
+  show(method, 7, HitKind::kSurface, p, 0);                            // no water in the reference: not counted
   const HitComparison c = compare_hits(make_scene(), looking_down(true), truth, method);
   CHECK(c.water_pixels == 7);
   CHECK(c.compared_pixels == 3);

@@ -62,7 +62,7 @@ class Oracle {
  public:
   explicit Oracle(bool bend) : sheets_(make_sheets()), bend_(bend) {}
 
-  Seen look(const Camera& camera, double x, double y) const {
+  Seen trace(const Camera& camera, double x, double y) const {
     const double per_px = 2.0 * static_cast<double>(camera.tan_half_yfov) / kHeight;
     const Vec3d o = as_double(camera.position_world);
     const Vec3d d = as_double(camera.forward_world) + as_double(camera.right_world) * ((x - 0.5 * kWidth) * per_px) +
@@ -189,10 +189,10 @@ void check_view(const RenderScene& scene, const Place& place, const char* method
   std::string first;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
-      const Seen e = oracle.look(camera, x + 0.5, y + 0.5);
+      const Seen e = oracle.trace(camera, x + 0.5, y + 0.5);
       bool edge = false;  // the broad phase is straight to a quarter of a pixel
       for (int i = 0; i < 9 && !edge; ++i)
-        edge = oracle.look(camera, x + 0.5 + 0.4 * (i % 3 - 1), y + 0.5 + 0.4 * (i / 3 - 1)).met != e.met;
+        edge = oracle.trace(camera, x + 0.5 + 0.4 * (i % 3 - 1), y + 0.5 + 0.4 * (i / 3 - 1)).met != e.met;
       if (edge) continue;
       ++checked;
       const float* got = frame.linear.data() + 4 * static_cast<std::size_t>(y * kWidth + x);

@@ -50,8 +50,8 @@ std::string text(const OraclePixel& p) {
   return out.str();
 }
 
-// Does the truth show the same as `shown` anywhere within a pixel? Halves what lies between any two points that show
-// different things, so that bands far thinner than its first steps (at the edge of Snell's window) are found too.
+// Does the reference show the same as `shown` anywhere within a pixel? Halves what lies between any two points that
+// show different things, so that bands far thinner than its first steps (at the edge of Snell's window) are found too.
 struct SilhouetteSearch {
   const RefractionOracle& oracle;
   const Camera& camera;

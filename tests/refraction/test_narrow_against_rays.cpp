@@ -26,7 +26,7 @@ std::size_t object_of(const Geometry& g, std::uint32_t triangle) {
 
 struct Tally {
   std::size_t water = 0, wrong = 0;  // pixels
-  std::size_t again = 0;             // of water whose rays meet water again: paths of depth 2 show something else
+  std::size_t again = 0;             // of water whose rays cross a secondary interface: paths of depth 2 differ
 };
 
 RenderScene scene_of(const char* name, float slope, WaterGeometry geometry) {
@@ -77,7 +77,7 @@ TEST_CASE("narrow phase: what two-phase finds is what rays find", "[refraction]"
     const char* name;
     float slope;
     WaterGeometry geometry;
-    bool again;  // enough rays meet water again
+    bool again;  // enough rays cross a secondary water interface
   };
   for (const Case& c :
        {Case{"pool", 0, WaterGeometry::kNormals, false}, Case{"pond", 0, WaterGeometry::kNormals, false},

@@ -1,5 +1,5 @@
-// The refracted pass's geometry against the exact map, pixel by pixel: what is drawn is what the truth shows within the
-// broad phase's bound, without cracks; the level cap is reported; culling changes nothing.
+// The refracted pass's geometry against the exact map, pixel by pixel: what is drawn is what the reference shows within
+// the broad phase's bound, without cracks; the level cap is reported; culling changes nothing.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../raster/raster_driver.h"
-#include "refraction/passes/water_programs.h"
+#include "refraction/passes/vertex_programs.h"
 #include "refraction/passes/water_region.h"
 #include "refraction_oracle.h"
 
@@ -61,12 +61,19 @@ RenderScene scene_of(const std::vector<Sheet>& sheets, float ior) {
   return scene;
 }
 
-// The pass as the frame sets it up, over the whole frame.
-WaterPass pass_of(const WaterBody& body, const View& view) {
+WaterOptics optics_of(const WaterBody& body, const View& view) {
+  WaterOptics optics;
+  optics.water.body = &body;
+  optics.exact = optics.map = make_broad_phase(body, view);
+  return optics;
+}
+
+// The refracted pass as the frame sets it up, over the whole frame.
+//   optics  outlives the pass
+WaterPass pass_of(const WaterOptics& optics, const View& view) {
   WaterPass w;
-  w.body = &body;
-  w.optics = w.map = make_broad_phase(body, view);
-  w.keep = {w.map.far_normal, 0.02f - dot(w.map.far_normal, w.map.plane_origin)};
+  w.optics = &optics;
+  w.clip_plane = {optics.map.far_normal, 0.02f - dot(optics.map.far_normal, optics.map.plane_origin)};
   w.pass = whole_frame(view.width_px, view.height_px, view.centre_px, 64);
   w.frustum = make_frustum(view, 0, 0, view.width_px - 1, view.height_px - 1);
   return w;
@@ -75,13 +82,15 @@ WaterPass pass_of(const WaterBody& body, const View& view) {
 // The same program with the culling of meshlets off.
 template <class Program>
 struct Unculled : Program {
+  explicit Unculled(const Program& program) : Program(program) {}
   bool meshlet_outside(const Meshlet&) const { return false; }
 };
 
 template <class Program>
 VisibilityBuffer draw(const RenderScene& scene, const Program& program, const PassSettings& pass,
                       std::uint64_t& capped) {
-  const std::vector<WorkItemBins> work_items = bin_geometry(scene.geometry, scene.materials, program, pass, 4);
+  const std::vector<WorkItemBins> work_items =
+      bin_geometry(scene.geometry, draw_states(scene.materials.materials), program, pass, 4);
   capped = 0;
   for (const WorkItemBins& work_item : work_items) capped += work_item.subdivision_capped;
   VisibilityBuffer out;
@@ -91,8 +100,8 @@ VisibilityBuffer draw(const RenderScene& scene, const Program& program, const Pa
 
 // Culling changes no pixel. (Off the frame, triangles that culling spares may reach the level cap.)
 template <class Program>
-void check_culling(const RenderScene& scene, const Program& program, const Unculled<Program>& unculled,
-                   const PassSettings& pass) {
+void check_culling(const RenderScene& scene, const Program& program, const PassSettings& pass) {
+  const Unculled<Program> unculled(program);
   std::uint64_t capped = 0;
   const VisibilityBuffer culled = draw(scene, program, pass, capped), all = draw(scene, unculled, pass, capped);
   long different = 0, drawn = 0;
@@ -108,10 +117,10 @@ void check_culling(const RenderScene& scene, const Program& program, const Uncul
 
 struct Outcome {
   long inside = 0, cracks = 0, strays = 0, beyond = 0;
-  double worst_px = 0;  // from the pixel's centre to where the truth shows what is drawn there
+  double worst_px = 0;  // from the pixel's centre to where the reference shows what is drawn there
 };
 
-// Within which distance of the pixel does the truth show triangle `id`? 1 where not within half a pixel.
+// Within which distance of the pixel does the reference show triangle `id`? 1 where not within half a pixel.
 double distance_to(const RefractionOracle& oracle, const Camera& camera, int x, int y, std::uint32_t id) {
   for (const double r : {0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5})
     for (int k = 0; k < (r == 0.0 ? 1 : 48); ++k) {
@@ -145,9 +154,10 @@ Outcome compare(const RenderScene& scene, const Camera& camera, const Visibility
 
 void check(const std::string& name, const RenderScene& scene, const Camera& camera, int step) {
   const View view = make_view(camera, kWidth, kHeight, {0, 0});
-  const WaterPass water = pass_of(scene.waters[0], view);
+  const WaterOptics optics = optics_of(scene.waters[0], view);
+  const WaterPass water = pass_of(optics, view);
   std::uint64_t capped = 0;
-  const VisibilityBuffer drawn = draw(scene, RefractedProgram{{water, view}}, water.pass, capped);
+  const VisibilityBuffer drawn = draw(scene, RefractedProgram(water, view), water.pass, capped);
   const Outcome o = compare(scene, camera, drawn, step);
   INFO(name);
   CAPTURE(o.inside, o.worst_px, capped);
@@ -157,12 +167,12 @@ void check(const std::string& name, const RenderScene& scene, const Camera& came
   CHECK(o.beyond == 0);
   CHECK(capped == 0);
 
-  check_culling(scene, RefractedProgram{{water, view}}, Unculled<RefractedProgram>{{{water, view}}}, water.pass);
+  check_culling(scene, RefractedProgram(water, view), water.pass);
 }
 
 }  // namespace
 
-TEST_CASE("subdivision: a single large quad under water shows where the truth shows it, without cracks") {
+TEST_CASE("subdivision: a single large quad under water shows where the reference shows it, without cracks") {
   for (const float ior : {1.333f, 1.7f, 0.8f}) {
     const RenderScene scene = scene_of({{6, -2, 5, 1, 1}}, ior);
     check("from above", scene, camera_at({1, 3, 4}, {0, -2, 0}, 1.0), 1);
@@ -172,7 +182,7 @@ TEST_CASE("subdivision: a single large quad under water shows where the truth sh
   }
 }
 
-TEST_CASE("subdivision: a coarse and a fine basin floor both show each cell where the truth shows it") {
+TEST_CASE("subdivision: a coarse and a fine basin floor both show each cell where the reference shows it") {
   // As many vertices as Liu et al. (2020, Fig. 12) give their two basins: 98 and about 1093.
   for (const Sheet& floor : {Sheet{6, -2.2, 4, 13, 6}, Sheet{6, -2.2, 4, 39, 26}}) {
     const RenderScene scene = scene_of({floor}, 1.333f);
@@ -182,7 +192,7 @@ TEST_CASE("subdivision: a coarse and a fine basin floor both show each cell wher
   }
 }
 
-TEST_CASE("subdivision: a ceiling seen from under water through Snell's window shows where the truth shows it") {
+TEST_CASE("subdivision: a ceiling seen from under water through Snell's window shows where the reference shows it") {
   const RenderScene scene = scene_of({{5, 1.5, 5, 4, 4}}, 1.333f);
   check("up", scene, camera_at({0.3f, -1.5f, 0.2f}, {0.31f, 1, 0.2f}, 1.6), 1);
   check("aslant", scene, camera_at({2, -0.8f, 2}, {0, 0.6f, 0}, 1.2), 1);
@@ -195,20 +205,19 @@ TEST_CASE("subdivision: an orthographic view needs none and is exact") {
   check("orthographic", scene, camera, 1);
 }
 
-TEST_CASE("culling: meshlets that a pass leaves out would not have shown, direct, refracted and mirrored") {
+TEST_CASE("culling: meshlets that a pass leaves out would not have shown, direct, refracted and reflected") {
   for (const char* name : {"box", "pool"}) {
     const RenderScene scene = built_in(name, 2000);
     for (const PlacedCamera& placed : scene.cameras) {
       INFO(name << ", " << placed.name);
       const View view = make_view(placed.camera, kWidth, kHeight, {0, 0});
-      const WaterPass water = pass_of(scene.waters[0], view);
-      check_culling(scene, DirectProgram{view, water.frustum}, Unculled<DirectProgram>{{view, water.frustum}},
-                    water.pass);
-      check_culling(scene, RefractedProgram{{water, view}}, Unculled<RefractedProgram>{{{water, view}}}, water.pass);
-      if (!water.optics.eye_below) continue;
-      const WaterPass mirrored = mirrored_pass(water);
-      check_culling(scene, MirroredProgram{{mirrored, view}}, Unculled<MirroredProgram>{{{mirrored, view}}},
-                    mirrored.pass);
+      const WaterOptics optics = optics_of(scene.waters[0], view);
+      const WaterPass water = pass_of(optics, view);
+      check_culling(scene, DirectProgram{view, water.frustum}, water.pass);
+      check_culling(scene, RefractedProgram(water, view), water.pass);
+      if (!optics.exact.eye_below) continue;
+      const WaterPass reflected = reflected_pass(water);
+      check_culling(scene, ReflectedProgram(reflected, view), reflected.pass);
     }
   }
 }

@@ -2,10 +2,10 @@
 //
 //   frame_changes <LIST >CSV
 //
-// A line of LIST is a frame: OURS <tab> TRUTH, two 8-bit pictures, all of one size. A row of CSV is a step from the
-// frame before: frame, mean absolute difference of ours and of the truth (code values, over R, G and B), their ratio,
-// and the block of 16 x 16 pixels whose change exceeds the truth's most: x, y, its mean difference in ours and in the
-// truth.
+// A line of LIST is a frame: OURS <tab> REFERENCE, two 8-bit pictures, all of one size. A row of CSV is a step from the
+// frame before: frame, mean absolute difference of ours and of the reference (code values, over R, G and B), their
+// ratio, and the block of 16 x 16 pixels whose change exceeds the reference's most: x, y, its mean difference in ours
+// and in the reference.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "shading/textures/texture.h"
 #include "scene/images/images.h"
+#include "shading/textures/texture.h"
 
 namespace {
 
@@ -85,7 +85,7 @@ int main() {
     for (std::string line; std::getline(std::cin, line); ++frame) {
       const std::size_t tab = line.find('\t');
       if (tab == std::string::npos)
-        throw shoal::Error("standard input: no tab in '" + line + "'; expected OURS <tab> TRUTH");
+        throw shoal::Error("standard input: no tab in '" + line + "'; expected OURS <tab> REFERENCE");
       Picture now[2] = {load(line.substr(0, tab)), load(line.substr(tab + 1))};
       if (frame > 0) report(frame, now[0], block_sums(before[0], now[0]), block_sums(before[1], now[1]));
       for (int i = 0; i < 2; ++i) before[i] = std::move(now[i]);

@@ -1,14 +1,12 @@
-// The narrow phase's tree over the scene's triangles against all of them in double, and the edges of a layer against
-// pictures whose edges are known.
+// Traversal of the BVH over a scene's triangles against all of them in double.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include "raster/geometry_view.h"
-#include "refraction/narrow/layer_edges.h"
-#include "trace/nearest_hit.h"
 #include "tests/refraction/refraction_oracle.h"
+#include "trace/nearest_hit.h"
 
 using namespace shoal_test;
 
@@ -43,6 +41,14 @@ struct Soup {
       mesh.material = first / 100 % 3 == 2 ? 1 : 0;
       append_mesh(geometry, mesh);
     }
+  }
+
+  //   states  draw_states of the materials; outlives the view
+  ShadingView view(const std::vector<DrawState>& states) const {
+    ShadingView v;
+    v.geometry = view_of(geometry, states.data());
+    v.materials = materials.materials.data();
+    return v;
   }
 };
 
@@ -80,8 +86,10 @@ Oracle all_triangles(const Soup& soup, Vec3f origin, Vec3f direction) {
 }
 
 // How many of the rays had one clear answer; each of those is checked. Packets of rays anywhere and, every other one,
-// of rays from about one place that spread a little or more: those go as one beam.
-int check_rays(Soup& soup, const FrameData& f, int packets) {
+// of rays from about one place that spread a little or more: those go as one packet frustum.
+int check_rays(Soup& soup, const Bvh16& bvh, int packets) {
+  const std::vector<DrawState> states = draw_states(soup.materials.materials);
+  const ShadingView view = soup.view(states);
   int clear = 0;
   for (int packet = 0; packet < packets; ++packet) {
     alignas(64) float value[6][16];
@@ -103,7 +111,7 @@ int check_rays(Soup& soup, const FrameData& f, int packets) {
     const Ray<WideF> ray = {vector(0), vector(3)};
     const WideM lanes = mask_from_bits(packet % 2 == 0 ? 0xFFFFu : 0xBEEFu);
     alignas(64) std::int32_t id[16], known[16];
-    nearest_hits(f, ray, {}, {}, lanes).id.store(id);
+    nearest_hits(bvh, view, ray, {}, {}, lanes).id.store(id);
     alignas(64) float near_t[16];
     for (int lane = 0; lane < 16; ++lane) {
       if ((to_bits(lanes) >> lane & 1u) == 0) continue;
@@ -118,39 +126,32 @@ int check_rays(Soup& soup, const FrameData& f, int packets) {
     // Nothing is nearer than a little before the nearest: what is known stays.
     for (int lane = 0; lane < 16; ++lane)
       if ((to_bits(lanes) >> lane & 1u) == 0) near_t[lane] = 1.0f;
-    nearest_hits(f, ray, {}, {WideI(-5), WideF::load(near_t)}, lanes).id.store(known);
+    nearest_hits(bvh, view, ray, {}, {WideI(-5), WideF::load(near_t)}, lanes).id.store(known);
     for (int lane = 0; lane < 16; ++lane)
       if ((to_bits(lanes) >> lane & 1u) != 0 && id[lane] != kNoId) CHECK(known[lane] == -5);
   }
   return clear;
 }
 
-void fill(VisibilityBuffer& layer, float (*depth_at)(int x, int y)) {
-  for (int y = 0; y < layer.grid.height_px; ++y)
-    for (int x = 0; x < layer.grid.width_px; ++x) layer.depth[layer.grid.slot(x, y)] = depth_at(x, y);
-}
-
 }  // namespace
 
-TEST_CASE("triangle tree: the nearest of all triangles", "[refraction]") {
+TEST_CASE("bvh16: the nearest of all triangles", "[trace]") {
   for (const int count : {1, 16, 17, 300, 5000, 20000}) {
     Soup soup(count);
-    FrameData f;
-    f.geometry = view_of(soup.geometry, soup.materials);
-    f.tree = std::make_unique<Bvh16>();
+    Bvh16 bvh;
     ThreadPool pool(count == 300 ? 1 : 2);
-    f.tree->build(soup.geometry, soup.materials, count != 300, pool);
+    bvh.build(soup.geometry, soup.materials, count != 300, pool);
     INFO(count << " triangles");
-    REQUIRE(check_rays(soup, f, 40) > 400);
-    // After everything has moved, by the same boxes' tree.
+    REQUIRE(check_rays(soup, bvh, 40) > 400);
+    // After everything has moved, by the refitted BVH.
     for (VertexRecord& v : soup.geometry.vertices)
       v.position_world = Vec3f{v.position_world.y, v.position_world.z * 1.5f, -v.position_world.x};
-    f.tree->refit(soup.geometry, pool);
-    REQUIRE(check_rays(soup, f, 40) > 400);
+    bvh.refit(soup.geometry, pool);
+    REQUIRE(check_rays(soup, bvh, 40) > 400);
   }
 }
 
-TEST_CASE("triangle tree: a bounded depth, however triangles lie", "[refraction]") {
+TEST_CASE("bvh16: a bounded depth, however triangles lie", "[trace]") {
   // Each a third of the way of the one before from a corner: halving by place takes off a few at a time.
   Soup soup(3000);
   float size = 1e18f;
@@ -159,67 +160,33 @@ TEST_CASE("triangle tree: a bounded depth, however triangles lie", "[refraction]
     size = size < 1e-36f ? 1e18f : size * 0.93f;
   }
   ThreadPool pool(2);
-  Bvh16 tree;
-  tree.build(soup.geometry, soup.materials, false, pool);
-  std::vector<int> height(tree.nodes.size(), 1);
+  Bvh16 bvh;
+  bvh.build(soup.geometry, soup.materials, false, pool);
+  std::vector<int> height(bvh.nodes.size(), 1);
   std::size_t triangles = 0;
-  for (std::size_t n = 0; n < tree.nodes.size(); ++n)
-    for (const std::int32_t child : tree.nodes[n].child) {
+  for (std::size_t n = 0; n < bvh.nodes.size(); ++n)
+    for (const std::int32_t child : bvh.nodes[n].child) {
       if (child == Bvh16::kNone) continue;
       if (child < 0)
-        triangles += static_cast<std::size_t>(__builtin_popcount(tree.kinds[static_cast<std::size_t>(~child)].there));
+        triangles += static_cast<std::size_t>(__builtin_popcount(bvh.kinds[static_cast<std::size_t>(~child)].there));
       else
         height[n] = std::max(height[n], height[static_cast<std::size_t>(child)] + 1);
     }
   CHECK(triangles == 3000);
   CHECK(height.back() > 3);
-  CHECK(height.back() <= Bvh16::kMostLevels);
+  CHECK(height.back() <= Bvh16::kMaxLevels);
 }
 
-TEST_CASE("triangle tree: of nothing, and of what is blended", "[refraction]") {
+TEST_CASE("bvh16: of nothing, and of what is blended", "[trace]") {
   Soup soup(200);
   for (Material& m : soup.materials.materials) m.alpha_mode = AlphaMode::kBlend;
-  FrameData f;
-  f.geometry = view_of(soup.geometry, soup.materials);
-  f.tree = std::make_unique<Bvh16>();
+  const std::vector<DrawState> states = draw_states(soup.materials.materials);
+  Bvh16 bvh;
   ThreadPool pool(1);
-  f.tree->build(soup.geometry, soup.materials, true, pool);
+  bvh.build(soup.geometry, soup.materials, true, pool);
+  const ShadingView view = soup.view(states);
   const Ray<WideF> ray = {broadcast<WideF>(Vec3f{0, 0, 20}), broadcast<WideF>(Vec3f{0, 0, -1})};
   alignas(64) std::int32_t id[16];
-  nearest_hits(f, ray, {}, {}, mask_from_bits(0xFFFFu)).id.store(id);
+  nearest_hits(bvh, view, ray, {}, {}, mask_from_bits(0xFFFFu)).id.store(id);
   for (const std::int32_t one : id) CHECK(one == kNoId);
-}
-
-TEST_CASE("layer edges: planes have none, steps have them a pixel wide on either side", "[refraction]") {
-  VisibilityBuffer layer;
-  layer.resize(make_frame_grid(150, 90));
-  // Is any pixel of the block one for which `expected` holds?
-  const auto check_blocks = [&](auto expected) {
-    int edges = 0;
-    for (int by = 0; by < 22; ++by)
-      for (int bx = 0; bx < 37; ++bx) {
-        bool wanted = false;
-        for (int k = 0; k < 16; ++k) wanted = wanted || expected(4 * bx + k % 4, 4 * by + k / 4);
-        const std::size_t region = static_cast<std::size_t>(by / 16 * layer.grid.regions_x + bx / 16);
-        INFO(bx << ", " << by);
-        REQUIRE(find_edges(layer, region).at(4 * bx, 4 * by) == wanted);
-        edges += wanted;
-      }
-    return edges;
-  };
-  // A steep plane: exactly linear in float. At the layer's border it bends: what is beyond is as there.
-  fill(layer, [](int x, int y) { return 0.25f + static_cast<float>(x) * 0x1p-10f + static_cast<float>(y) * 0x1p-9f; });
-  check_blocks([](int x, int y) { return x == 0 || y == 0 || x == 149 || y == 89; });
-  // A nearer square, across regions, before a far plane and before nothing.
-  static float behind;
-  for (const float far_depth : {0.25f, 0.0f}) {
-    behind = far_depth;
-    fill(layer, [](int x, int y) { return x >= 50 && x < 82 && y >= 20 && y < 70 ? 0.5f : behind; });
-    const int edges = check_blocks([](int x, int y) {
-      const bool near_square = x >= 49 && x <= 82 && y >= 19 && y <= 70;
-      const bool well_inside = x >= 51 && x < 81 && y >= 21 && y < 69;
-      return near_square && !well_inside;
-    });
-    REQUIRE(edges > 20);
-  }
 }

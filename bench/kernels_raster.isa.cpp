@@ -1,39 +1,40 @@
 // The pixel functions of raster/, sixteen pixels at a time, one copy an ISA.
 #include "bench/kernels.h"
-#include "shading/light.h"
-#include "shading/post.h"
 #include "raster/resolve.h"
+#include "shading/light.h"
+#include "shading/material_uv.h"
+#include "shading/post.h"
 #include "shading/sky.h"
-#include "refraction/pixel_stage.h"
+#include "shading/surface.h"
 
 namespace shoal::bench::inline SHOAL_ISA_NS {
 
 namespace {
 
 // Calls store(block, surface, lanes) with the surface points of each block of a region, as shade_hits finds them.
-// A block's lines of the ids and of the targets are asked for one row of blocks before they are needed: rows lie pages
-// apart, where the processor does not look ahead by itself, and stores that wait for their lines hold up all that
+// It prefetches a block's lines of the ids and of the targets one row of blocks before they are needed: rows lie pages
+// apart, where the processor does not prefetch by itself, and stores that wait for their lines hold up all that
 // follows.
-//   ahead  told the first slot of the block below each one
+//   ahead  called with the first slot of the block below each one
 template <class Store, class Ahead>
-SHOAL_INLINE void surfaces_of_region(const FrameData& f, std::size_t region, Store store, Ahead ahead) {
-  const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
-  const std::size_t row = static_cast<std::size_t>(f.grid.blocks_x) * kBlockPixels;
-  for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
-    if (const std::size_t below = block.offset + row; below < f.direct.id.size()) {
-      __builtin_prefetch(f.direct.id.data() + below);
+SHOAL_INLINE void surfaces_of_region(const VisibleIn& in, std::size_t region, Store store, Ahead ahead) {
+  const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(in.view);
+  const std::size_t row = static_cast<std::size_t>(in.direct.grid.blocks_x) * kBlockPixels;
+  for_each_block(in.direct.grid, region, [&](const Block& block) SHOAL_LAMBDA {
+    if (const std::size_t below = block.offset + row; below < in.direct.id.size()) {
+      __builtin_prefetch(in.direct.id.data() + below);
       ahead(below);
     }
-    const WideI id = WideI::load(f.direct.id.data() + block.offset);
+    const WideI id = WideI::load(in.direct.id.data() + block.offset);
     const WideM shown = is_triangle(id) & block.in_frame;
     if (none(shown)) return;
-    const Ray<WideF> ray = block_rays(f.view, block);
+    const Ray<WideF> ray = block_rays(in.view, block);
     PixelAttributes<WideF> a;
-    resolve_attributes(f.geometry, ray, differential, id, shown, a);
+    resolve_attributes(in.shading.geometry, ray, differential, id, shown, a);
     const Vec3<WideF> to_eye = -normalize(ray.direction_world);
     for_each_distinct(a.material, shown, [&](std::int32_t one, WideM lanes) SHOAL_LAMBDA {
       store(block,
-            make_surface<WideF>(f.geometry.materials[one], f.scene->materials, a.position_world, a.normal_world, a.uv,
+            make_surface<WideF>(in.shading.materials[one], in.shading.textures, a.position_world, a.normal_world, a.uv,
                                 a.duv_dx, a.duv_dy, a.color, to_eye, lanes),
             lanes);
     });
@@ -46,9 +47,9 @@ SHOAL_INLINE void put(AlignedArray<float>* planes, std::size_t at, const Vec3<Wi
   store_masked(planes[2].data() + at, v.z, lanes);
 }
 
-void fill_float(const FrameData& f, FloatTargets& to, std::size_t region) {
+void fill_float(const VisibleIn& in, FloatTargets& to, std::size_t region) {
   surfaces_of_region(
-      f, region,
+      in, region,
       [&](const Block& block, const SurfaceSample<WideF>& s, WideM lanes) SHOAL_LAMBDA {
         put(to.position, block.offset, s.position_world, lanes);
         put(to.normal, block.offset, s.normal_world, lanes);
@@ -64,9 +65,9 @@ void fill_float(const FrameData& f, FloatTargets& to, std::size_t region) {
 SHOAL_INLINE WideI unorm8(WideF v) { return to_int_nearest(clamp(v, WideF(0.0f), WideF(1.0f)) * WideF(255.0f)); }
 SHOAL_INLINE WideI pack(WideI x, WideI y, WideI z) { return x | (y << 8) | (z << 16); }
 
-void fill_rgba8(const FrameData& f, Rgba8Targets& to, std::size_t region) {
+void fill_rgba8(const VisibleIn& in, Rgba8Targets& to, std::size_t region) {
   surfaces_of_region(
-      f, region,
+      in, region,
       [&](const Block& block, const SurfaceSample<WideF>& s, WideM lanes) SHOAL_LAMBDA {
         const WideF half(0.5f);
         const Vec3<WideF>& n = s.normal_world;

@@ -1,10 +1,9 @@
 // The broad and the narrow phase's functions, sixteen points or pixels at a time, one copy an ISA.
 #include "bench/kernels.h"
-#include "refraction/broad/broad_phase.h"
 #include "bench/solvers/path_solvers.h"
+#include "refraction/broad/broad_phase.h"
 #include "refraction/narrow/confirm_hit.h"
 #include "water/exact_ray.h"
-#include "refraction/pixel_stage.h"
 
 namespace shoal::bench::inline SHOAL_ISA_NS {
 
@@ -65,11 +64,11 @@ SHOAL_INLINE WideF sum_of(const RayDifferential<WideF>& d) {
   return (dot(d.origin_dx, d.origin_dy) + dot(d.direction_dx, d.direction_dy));
 }
 
-void run_exact_ray(const BroadPhase& bp, const FrameData& f, std::size_t region, float* out) {
-  const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(f.view);
+void run_exact_ray(const BroadPhase& bp, const View& view, const FrameGrid& grid, std::size_t region, float* out) {
+  const RayDifferential<WideF> differential = pixel_ray_differential<WideF>(view);
   WideF sum(0.0f);
-  for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
-    const Ray<WideF> ray = block_rays(f.view, block);
+  for_each_block(grid, region, [&](const Block& block) SHOAL_LAMBDA {
+    const Ray<WideF> ray = block_rays(view, block);
     const ExactRay<WideF> hit = exact_ray(bp, ray);
     const RayDifferential<WideF> crossing = at_crossing(ray, differential, hit);
     sum = sum + hit.reflectance + dot(hit.refracted, hit.reflected) + sum_of(refracted_differential(crossing, hit)) +
@@ -78,15 +77,15 @@ void run_exact_ray(const BroadPhase& bp, const FrameData& f, std::size_t region,
   sum.store(out);
 }
 
-void run_confirm(const FrameData& f, bool by_neighbours, std::size_t region, std::int32_t* out) {
+void run_confirm(const VisibleIn& in, bool by_neighbours, std::size_t region, std::int32_t* out) {
   WideI last(0);
-  for_each_block(f.grid, region, [&](const Block& block) SHOAL_LAMBDA {
-    const WideI shown = WideI::load(f.direct.id.data() + block.offset);
+  for_each_block(in.direct.grid, region, [&](const Block& block) SHOAL_LAMBDA {
+    const WideI shown = WideI::load(in.direct.id.data() + block.offset);
     const WideI own = by_neighbours ? WideI(kNoId) : shown;
     const WideI x = WideI(block.x_px) + block_x(), y = WideI(block.y_px) + block_y();
     const WideM lanes = is_triangle(shown) & block.in_frame;
     if (none(lanes)) return;
-    last = last ^ confirm_hit(f.geometry, f.direct, block_rays(f.view, block), own, x, y, lanes).id;
+    last = last ^ confirm_hit(in.shading.geometry, in.direct, block_rays(in.view, block), own, x, y, lanes).id;
   });
   last.store(out);
 }

@@ -1,4 +1,4 @@
-// Methods that shade before: what they show against the ray tracer, and that they show it everywhere alike.
+// Image-space methods: what they show against the ray tracer, and that every configuration gives the same bytes.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -94,7 +94,7 @@ enum PoolCamera { kHigh, kGrazing, kUnder };
 
 }  // namespace
 
-TEST_CASE("shade before: through flat water liu-2020 and steel-2024 show what is there") {
+TEST_CASE("image space: through flat water liu-2020 and steel-2024 show what is there") {
   const RenderScene scene = scene_with_waves("pool", 5000, 0);
   for (const int camera : {kHigh, kGrazing, kUnder}) {
     const Frame truth = draw(scene, camera, "ray-traced");
@@ -110,7 +110,7 @@ TEST_CASE("shade before: through flat water liu-2020 and steel-2024 show what is
   }
 }
 
-TEST_CASE("shade before: an orthographic view through flat water") {
+TEST_CASE("image space: an orthographic view through flat water") {
   RenderScene scene = scene_with_waves("pool", 5000, 0);
   shoal::Camera& camera = scene.cameras[kHigh].camera;
   camera.orthographic = true;
@@ -126,13 +126,13 @@ TEST_CASE("shade before: an orthographic view through flat water") {
   const Difference straight = compare(scene, draw(scene, kHigh, "distort"), draw(scene, kHigh, "none"));
   CHECK(straight.p95_m < 1e-3);
   CHECK(straight.wrong_object < 0.001);
-  // The march: every place is in the frame, and it is nearer to the truth than no refraction is.
+  // The march: every place is in the frame, and it is nearer to the reference than no refraction is.
   const Difference marched = compare(scene, draw(scene, kHigh, "screen-space"), truth),
                    none = compare(scene, draw(scene, kHigh, "none"), truth);
   CHECK(marched.median_m < 0.7 * none.median_m);
 }
 
-TEST_CASE("shade before: under waves liu-2020 meets planes exactly, steel-2024 nearly, unrefracted frames miss much") {
+TEST_CASE("image space: under waves liu-2020 meets planes exactly, steel-2024 nearly, unrefracted frames miss much") {
   const RenderScene scene = scene_with_waves("pool", 5000, 0.05f);
   for (const int camera : {kHigh, kGrazing}) {
     const Frame truth = draw(scene, camera, "ray-traced");
@@ -158,7 +158,7 @@ TEST_CASE("shade before: under waves liu-2020 meets planes exactly, steel-2024 n
   }
 }
 
-TEST_CASE("shade before: distort of flat water is none, and of no strength too") {
+TEST_CASE("image space: distort of flat water is none, and of no strength too") {
   const auto same = [](const RenderScene& scene, const Options& options) {
     for (const int camera : {kHigh, kGrazing}) {
       const Frame a = draw(scene, camera, "distort", options), b = draw(scene, camera, "none");
@@ -175,7 +175,7 @@ TEST_CASE("shade before: distort of flat water is none, and of no strength too")
   same(scene_with_waves("pool", 5000, 0.05f), {{"strength", "0"}, {"reflection", "false"}});
 }
 
-TEST_CASE("shade before: the mask of places outside of the frame") {
+TEST_CASE("image space: the mask of places outside of the frame") {
   const RenderScene scene = scene_with_waves("pool", 2000, 0.05f);
   const auto outside = [&](const char* method, const Options& options) {
     return plane_of(draw(scene, kGrazing, method, options), Aov::kHitOutside).uints;
@@ -195,7 +195,7 @@ TEST_CASE("shade before: the mask of places outside of the frame") {
   CHECK(std::count(after.begin(), after.end(), 1u) == 0);
 }
 
-TEST_CASE("shade before: liu-2020 as printed draws all but nothing") {
+TEST_CASE("image space: liu-2020 as printed draws all but nothing") {
   const RenderScene scene = scene_with_waves("pool", 2000, 0);
   const Frame printed = draw(scene, kHigh, "liu-2020", {{"as-printed", "true"}});
   const AovImage& kind = plane_of(printed, Aov::kHitKind);
@@ -204,7 +204,7 @@ TEST_CASE("shade before: liu-2020 as printed draws all but nothing") {
   CHECK(surfaces < water / 10);
 }
 
-TEST_CASE("shade before: the same bytes for any threads, tile size and instruction set, under waves") {
+TEST_CASE("image space: the same bytes for any threads, tile size and instruction set, under waves") {
   const RenderScene scene = scene_with_waves("pool", 2000, 0.05f);
   const std::vector<std::pair<const char*, Options>> methods = {
       {"liu-2020", {}},    {"liu-2020", {{"as-printed", "true"}}},
