@@ -1,5 +1,5 @@
-// The scenes of the papers: ball, knot, furnace, tank and pond. What the papers and the docs say of them, sound meshes,
-// closed solids, and the same bytes everywhere.
+// The scenes ball, knot, furnace, tank and pond: properties that the papers and docs/scenes.md state, valid meshes,
+// closed solids, and the same bytes on every machine.
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -193,7 +193,7 @@ TEST_CASE("the pond's shore is the ground's: the water's edge is under it all ro
     const double x = 0.5 * double(scene.waters[0].size_x), z = 0.5 * double(scene.waters[0].size_z);
     double lowest_rim = 1e9, lowest = 1e9;
     int holes = 0;
-    const auto look = [&](double at_x, double at_z) {
+    const auto height_at = [&](double at_x, double at_z) {
       const std::vector<double> heights = heights_at(*terrain, at_x, at_z);
       if (heights.empty()) ++holes;
       return heights.empty() ? 0.0 : heights[0];
@@ -201,9 +201,9 @@ TEST_CASE("the pond's shore is the ground's: the water's edge is under it all ro
     for (int i = 0; i <= 40; ++i) {
       const double t = 2.0 * i / 40 - 1;
       for (const double side : {-1.0, 1.0}) {
-        lowest_rim = std::min({lowest_rim, look(t * x, side * z), look(side * x, t * z)});
+        lowest_rim = std::min({lowest_rim, height_at(t * x, side * z), height_at(side * x, t * z)});
       }
-      lowest = std::min(lowest, look(0.8 * t * x, 0.3 * z));
+      lowest = std::min(lowest, height_at(0.8 * t * x, 0.3 * z));
     }
     INFO(n << " triangles");
     CHECK(holes == 0);
