@@ -10,13 +10,13 @@
 namespace shoal {
 namespace {
 
-// Floats a key's value has.
+// The number of floats in a key's value.
 std::size_t width_of(const Channel& channel) {
   const std::size_t groups = channel.interpolation == Interpolation::kCubicSpline ? 3 : 1;
   return channel.values.size() / (channel.times_s.size() * groups);
 }
 
-// Unit length; 0 0 0 1 where there is none.
+// Scales a quaternion to unit length; one that is shorter than 1e-6 or not finite becomes 0 0 0 1.
 void normalize_quaternion(std::vector<double>& q) {
   const double length = std::sqrt(((q[0] * q[0] + q[1] * q[1]) + q[2] * q[2]) + q[3] * q[3]);
   if (!(length > 1e-6) || !std::isfinite(length)) {
@@ -26,7 +26,7 @@ void normalize_quaternion(std::vector<double>& q) {
   for (double& v : q) v /= length;
 }
 
-// Source: glTF 2.0 specification, appendix C.4, the shorter way round.
+// Spherical interpolation along the shorter arc. Source: glTF 2.0 specification, appendix C.4.
 std::vector<double> slerp(std::vector<double> a, std::vector<double> b, double t) {
   normalize_quaternion(a);
   normalize_quaternion(b);
@@ -41,7 +41,7 @@ std::vector<double> slerp(std::vector<double> a, std::vector<double> b, double t
   }
   const float angle = 2.0f * det_atan2(static_cast<float>(std::sqrt(apart)), static_cast<float>(std::sqrt(together)));
   double from = 1 - t, to = t;
-  if (angle > 1e-4f) {  // below, sin x is x to more digits than a float has
+  if (angle > 1e-4f) {  // for smaller angles sin x equals x in float
     from = static_cast<double>(det_sin(static_cast<float>(1 - t) * angle));
     to = static_cast<double>(det_sin(static_cast<float>(t) * angle));
   }
@@ -56,7 +56,7 @@ std::vector<double> group(const Channel& channel, std::size_t index, std::size_t
   return {first, first + static_cast<std::ptrdiff_t>(width)};
 }
 
-// Source: glTF 2.0 specification, appendix C.5.
+// Cubic Hermite interpolation. Source: glTF 2.0 specification, appendix C.5.
 std::vector<double> spline(const Channel& channel, std::size_t key, std::size_t width, double span_s, double t) {
   const std::vector<double> value0 = group(channel, 3 * key + 1, width), out0 = group(channel, 3 * key + 2, width);
   const std::vector<double> in1 = group(channel, 3 * key + 3, width), value1 = group(channel, 3 * key + 4, width);

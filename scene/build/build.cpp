@@ -1,4 +1,4 @@
-// Scene to RenderScene: world space, meshlets, water outlines, placed cameras, light.
+// Builds a RenderScene from a Scene: meshlets in world space, outlines of water, placed cameras, lighting.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -15,7 +15,7 @@ namespace shoal {
 using namespace building;
 namespace {
 
-constexpr float kDefaultDepth_m = 1.0f;    // of a body that has nothing below it
+constexpr float kDefaultDepth_m = 1.0f;    // of a body without geometry below it
 constexpr float kPlanarTolerance = 1e-4f;  // of the outline's extent
 constexpr float kDefaultOrthographicFar_m = 1000.0f;
 
@@ -80,7 +80,7 @@ Geometry bake_geometry(const Scene& scene, const Pose& pose, Motion& motion) {
       view.tangents_world = tangents.data();
     }
     const bool moves = view.drawn && drawable_moves(scene, motion.node_moves, n, p);
-    if (deformer.mirrored() && !moves) {  // a mirror image turns front faces to back
+    if (deformer.mirrored() && !moves) {  // a mirroring transform turns front faces to back
       flipped = p.indices;
       for (std::size_t i = 0; i + 2 < flipped.size(); i += 3) std::swap(flipped[i + 1], flipped[i + 2]);
       view.indices = flipped.data();
@@ -109,7 +109,7 @@ void find_bounds(const Geometry& g, Vec3f& lo, Vec3f& hi) {
 
 // --- Water ----------------------------------------------------------------------------------------------------------
 
-// Appends a triangle of the outline, counter-clockwise seen from +normal; drops one without area.
+// Appends a triangle to the outline, counter-clockwise seen from +normal. One without area is dropped.
 void add_outline_triangle(WaterBody& body, Vec3f a, Vec3f b, Vec3f c) {
   const float area2 = dot(cross(b - a, c - a), body.normal);
   if (area2 == 0) return;
@@ -170,7 +170,7 @@ WaterBody building::place_water(const Scene& scene, std::size_t node_index, cons
   body.origin = column(t, 3);
   body.axis_x = normalize_or_zero(column(t, 0));
   const Vec3f to_z = normalize_or_zero(column(t, 2)), to_y = normalize_or_zero(column(t, 1));
-  // The plane is spanned by the local x and z axes; its normal is on the side of local +y, shear or mirror or not.
+  // The local x and z axes span the plane. Its normal is on the side of local +y, also under shear and mirroring.
   body.normal = normalize_or_zero(cross(to_z, body.axis_x));
   if (is_zero(body.normal) || is_zero(to_y) || dot(body.normal, to_y) == 0 || !is_finite(body.origin)) {
     fail(scene, node, "the water's transform is degenerate; expected three independent axes");
@@ -206,7 +206,8 @@ namespace {
 
 // --- Cameras --------------------------------------------------------------------------------------------------------
 
-// Completes an orthonormal frame that looks along `forward`, its up as near to `up` as can be.
+// Completes an orthonormal frame that looks along `forward`; its up vector is as close to `up` as possible. Returns
+// false where the two are parallel or zero.
 bool aim(Camera& camera, Vec3f forward, Vec3f up) {
   camera.forward_world = normalize_or_zero(forward);
   camera.right_world = normalize_or_zero(cross(camera.forward_world, normalize_or_zero(up)));
@@ -238,7 +239,8 @@ PlacedCamera building::place_camera(const Scene& scene, const Node& node, std::s
 
 namespace {
 
-// The whole scene in a three-quarter view, its bounding sphere inside a square frame of 45 degrees.
+// A camera for a scene without one: a three-quarter view in which the bounding sphere fits a square frame of 45
+// degrees.
 PlacedCamera framing_camera(Vec3f lo, Vec3f hi) {
   constexpr float kTanHalf = 0.41421356f, kSinHalf = 0.38268343f;  // of 22.5 degrees
   const Vec3f centre = (lo + hi) * 0.5f, half = (hi - lo) * 0.5f;
@@ -258,7 +260,7 @@ PlacedCamera framing_camera(Vec3f lo, Vec3f hi) {
 
 constexpr Vec3f kDefaultToSun{0.40824829f, 0.81649658f, 0.40824829f};
 constexpr Vec3f kDefaultSunIrradiance{2.6f, 2.45f, 2.2f};
-constexpr float kMaxInverseRange2 = 1e12f;  // a micrometre: its square stays finite far away
+constexpr float kMaxInverseRange2 = 1e12f;  // of one micrometre: products with squared distances stay finite
 
 bool is_lit(const Scene& scene) {
   for (const Node& node : scene.nodes) {
@@ -271,9 +273,9 @@ bool is_lit(const Scene& scene) {
   return false;
 }
 
-// Mean radiance of a half of the background, weighted by the cosine to the vertical: irradiance over pi. Of the sky of
-// shading/sky.h that is 2 (0.8 B(2, 4) + 0.2 B(2, 17)) of the way from zenith to horizon; the glow round the sun, under
-// 0.002 of it, and the haze's last degrees below the horizon are left out.
+// The mean radiance of each half of the background, weighted by the cosine to the vertical: irradiance over pi. For the
+// sky of shading/sky.h it lies 2 (0.8 B(2, 4) + 0.2 B(2, 17)) of the way from zenith to horizon, where B is the beta
+// function. The glow around the sun (less than 0.002 of it) and the haze below the horizon are left out.
 void ambient_from_background(Lighting& lighting) {
   const Background& b = lighting.background;
   if (b.kind == Background::Kind::kColor) {
@@ -285,7 +287,7 @@ void ambient_from_background(Lighting& lighting) {
   }
 }
 
-// A point or spot light.
+// Places a point or spot light.
 // Source: KHR_lights_punctual, "Inner and Outer Cone Angles" (the falloff's scale and offset).
 PunctualLight place_lamp(const Scene& scene, const Node& node, const LightSpec& spec, Vec3f direction) {
   PunctualLight light;
@@ -348,7 +350,7 @@ Lighting building::make_lighting(const Scene& scene) {
 
 namespace {
 
-// All but what would be large and stands still.
+// A copy without the textures, which are large and do not move.
 Scene without_textures(const Scene& scene) {
   Scene copy;
   copy.name = scene.name;
@@ -366,7 +368,8 @@ Scene without_textures(const Scene& scene) {
   return copy;
 }
 
-//   scene   its nodes where they are in the pose
+// Builds the parts of a RenderScene that depend on nodes.
+//   scene   its nodes are placed as in the pose
 //   motion  `node_moves` is given; receives the moving drawables and the bounds of the rest
 RenderScene build(const Scene& scene, const Pose& pose, Motion& motion) {
   RenderScene out;
@@ -395,7 +398,7 @@ RenderScene build_render_scene(const Scene& scene) {
     motion.scene = without_textures(scene);
     place_nodes(motion.scene, pose);
     out = build(motion.scene, pose, motion);
-    forget_still_vertices(motion);
+    drop_still_vertices(motion);
     out.motion = std::move(motion);
   }
   out.materials = scene.materials;

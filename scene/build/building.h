@@ -1,4 +1,4 @@
-// Shared by the files that make a RenderScene and move it: transforms of vectors, and what each node's parts become.
+// Functions shared by the files that build a RenderScene and move it.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace shoal::building {
 
 inline bool is_finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// Unit vector, or zero where there is no direction. Scaled by the largest component first: squares neither overflow nor
-// vanish.
+// The unit vector of v, or zero where v is zero or not finite. v is divided by its largest component first, so that
+// squares neither overflow nor vanish.
 inline Vec3f normalize_or_zero(Vec3f v) {
   const float largest = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
   if (!(largest > 0) || !std::isfinite(largest)) return {0, 0, 0};
@@ -32,7 +32,8 @@ inline Vec3f column(const Mat4& t, int c) { return Vec3f(t[c]); }
 // The determinant of the upper left 3 x 3 part: negative where the transform mirrors.
 inline float determinant(const Mat4& t) { return dot(column(t, 0), cross(column(t, 1), column(t, 2))); }
 
-// The inverse transpose up to a positive factor: the matrix of cofactors, times the determinant's sign.
+// Transforms normals: the inverse transpose up to a positive factor, that is, the matrix of cofactors times the sign of
+// the determinant.
 struct NormalMatrix {
   Vec3f columns[3];
 
@@ -69,8 +70,9 @@ inline const Mesh* mesh_of(const Scene& scene, const Node& node) {
   return node.mesh == kNoIndex ? nullptr : &scene.meshes[static_cast<std::size_t>(node.mesh)];
 }
 
-// scene/build/build.cpp. Of nodes where they are now; each throws Error where the node's transform degenerates.
-//   geometry  what the depth of a body without one reaches down to; null: the body's depth is left 0 then
+// These place the parts of nodes at the nodes' present transforms (scene/build/build.cpp). Each throws Error where the
+// transform of a node degenerates.
+//   geometry  a body without a depth reaches down to its lowest vertex; null: the depth of such a body is left 0
 WaterBody place_water(const Scene& scene, std::size_t node_index, const Geometry* geometry);
 PlacedCamera place_camera(const Scene& scene, const Node& node, std::size_t node_index);
 Lighting make_lighting(const Scene& scene);

@@ -1,4 +1,4 @@
-// Vertices of a primitive in world space under a pose: morphed, then skinned or placed by their node.
+// Vertices of a primitive in world space under a pose: morphed, then skinned or transformed by their node.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace shoal::building {
 
-// Joint matrices of a skin, mesh to world: one product in double a joint, rounded to float once.
+// The joint matrices of a skin, mesh to world. Each is one product in double, rounded to float once.
 inline std::vector<Mat4> joint_matrices(const Skin& skin, const Pose& pose) {
   std::vector<Mat4> joints;
   joints.reserve(skin.joints.size());
@@ -24,14 +24,14 @@ inline bool is_skinned(const Node& node, const MeshPrimitive& mesh) {
   return node.skin != kNoIndex && mesh.influences != 0;
 }
 
-// One primitive of one node, ready to be asked for vertices from any thread. Sums run in the file's order of targets
-// and joints, in float.
+// Computes the vertices of one primitive of one node; any number of threads may call it. Sums over targets and joints
+// run in the file's order, in float.
 // Source: glTF 2.0 specification, 3.7.2.2 (morph targets), 3.7.3 (skins: the node's own transform is ignored).
 // Differs: the winding of a skinned mesh is that of its first joint's matrix.
 // Error: 4e-6 of the extent of the mesh, against double (tests/scene/test_motion.cpp).
 class Deformer {
  public:
-  //   pose  of the scene's nodes; it and the mesh must outlive the deformer
+  //   pose  the pose of the scene's nodes; it and the mesh must outlive the deformer
   Deformer(const Scene& scene, const Pose& pose, std::size_t node_index, const MeshPrimitive& mesh)
       : mesh_(mesh),
         weights_(pose.morph_weights[node_index]),
@@ -43,7 +43,7 @@ class Deformer {
     deforms_ = !joints_.empty() || morphs_ != 0;
   }
 
-  // True where front faces would turn to the back.
+  // True where the transform reverses the winding of front faces.
   bool mirrored() const { return determinant(joints_.empty() ? world_ : joints_.front()) < 0; }
 
   Vec3f position(std::size_t v) const {
@@ -52,7 +52,7 @@ class Deformer {
     return joints_.empty() ? transform_point(world_, p) : transform_point(blended(v), p);
   }
 
-  // Unit.
+  // The unit normal.
   Vec3f normal(std::size_t v) const {
     if (!deforms_) return normal_matrix_.apply(mesh_.normals[v]);
     if (mesh_.flat_normals) return flat_normal(v / 3 * 3);
@@ -61,7 +61,7 @@ class Deformer {
   }
 
   bool has_tangents() const { return !mesh_.tangents.empty(); }
-  // Of a mesh with tangents. Targets do not bend them.
+  // Requires has_tangents. Morph targets do not change tangents.
   Vec4f tangent(std::size_t v) const { return place_tangent(joints_.empty() ? world_ : blended(v), mesh_.tangents[v]); }
 
  private:
@@ -79,7 +79,7 @@ class Deformer {
     }
     return n;
   }
-  // The weighted sum of the vertex's joint matrices.
+  // The weighted sum of the joint matrices of a vertex.
   Mat4 blended(std::size_t v) const {
     Mat4 sum = from_rows({0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0});
     const std::size_t first = v * mesh_.influences;
@@ -95,7 +95,7 @@ class Deformer {
     }
     return sum;
   }
-  // Of the triangle whose corners are three vertices from `first` on, on its front.
+  // The unit normal on the front of the triangle whose corners are the three vertices from `first` on.
   Vec3f flat_normal(std::size_t first) const {
     const Vec3f a = position(first), b = position(first + 1), c = position(first + 2);
     const Vec3f n = normalize_or_zero(cross(normalize_or_zero(b - a), normalize_or_zero(c - a)));
@@ -105,7 +105,7 @@ class Deformer {
 
   const MeshPrimitive& mesh_;
   const std::vector<float>& weights_;
-  std::vector<Mat4> joints_;  // empty: the node places the mesh
+  std::vector<Mat4> joints_;  // empty: the node's transform places the mesh
   Mat4 world_;
   NormalMatrix normal_matrix_;
   std::size_t morphs_ = 0;

@@ -32,8 +32,8 @@ const MeshPrimitive& primitive_of(const Scene& scene, const MovingDrawable& d) {
   return mesh_of(scene, scene.nodes[d.node])->primitives[d.primitive];
 }
 
-// Every triangle's second and third corner change places.
-void turn_triangles(Geometry& g, MovingDrawable& d) {
+// Reverses the winding: the second and third corner of every triangle are exchanged.
+void reverse_winding(Geometry& g, MovingDrawable& d) {
   const Drawable& drawable = g.drawables[d.drawable];
   for (std::uint32_t t = 0; t < drawable.triangle_count; ++t) {
     Geometry::TriangleRecord& triangle = g.triangles[drawable.first_triangle + t];
@@ -84,7 +84,7 @@ void update_geometry(RenderScene& out, const Pose& pose, ThreadPool* pool) {
   for (std::size_t i = 0; i < m.drawables.size(); ++i) {
     MovingDrawable& d = m.drawables[i];
     deformers.emplace_back(m.scene, pose, d.node, primitive_of(m.scene, d));
-    if (deformers[i].mirrored() != d.mirrored) turn_triangles(g, d);
+    if (deformers[i].mirrored() != d.mirrored) reverse_winding(g, d);
     for (std::uint32_t c = 0; c < d.meshlet_count; ++c)
       jobs.push_back({static_cast<std::uint32_t>(i), d.first_meshlet + c});
   }
@@ -106,7 +106,7 @@ void update_geometry(RenderScene& out, const Pose& pose, ThreadPool* pool) {
   out.bounds_max_world = bounds.hi;
 }
 
-// The sun of a sky that the scene's own light gives goes with that light.
+// Places the lights again. A default sky takes its sun from the scene's first directional light and follows it.
 void update_lights(RenderScene& out) {
   const Motion& m = out.motion;
   bool any = false;
@@ -152,7 +152,7 @@ void append_moving(Geometry& g, const MeshView& mesh, bool mirrored, Motion& mot
   for (std::size_t i = 0; i < mesh.index_count; ++i) {
     d.source[g.triangles[first + i / 3].vertex[i % 3] - d.first_vertex] = mesh.indices[i];
   }
-  if (mirrored) turn_triangles(g, d);
+  if (mirrored) reverse_winding(g, d);
   motion.drawables.push_back(std::move(d));
 }
 
@@ -172,7 +172,7 @@ void place_nodes(Scene& scene, const Pose& pose) {
   }
 }
 
-void forget_still_vertices(Motion& motion) {
+void drop_still_vertices(Motion& motion) {
   Scene& scene = motion.scene;
   std::vector<char> kept(scene.meshes.size(), 0);
   for (const MovingDrawable& d : motion.drawables) kept[static_cast<std::size_t>(scene.nodes[d.node].mesh)] = 1;
@@ -201,7 +201,7 @@ void update_render_scene(RenderScene& out, double time_s, ThreadPool* pool) {
     if (!place_moves(m.node_moves, body.node)) continue;
     const float depth_m = body.depth_m;
     body = place_water(m.scene, body.node, nullptr);
-    if (body.depth_m == 0) body.depth_m = depth_m;  // reached down to the scene's bottom at time 0
+    if (body.depth_m == 0) body.depth_m = depth_m;  // its depth to the scene's bottom at time 0 stays
   }
   for (PlacedCamera& placed : out.cameras) placed.camera = camera_at(out, placed, time_s);
   update_lights(out);

@@ -11,7 +11,7 @@ namespace {
 
 Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
 
-// Zero where there is no direction.
+// The unit vector of v, or zero where its squared length is at most 1e-60.
 Vec3d unit(Vec3d v) {
   const double length2 = dot(v, v);
   return length2 > 1e-60 ? v * (1.0 / std::sqrt(length2)) : Vec3d{0, 0, 0};
@@ -23,7 +23,7 @@ Vec3d any_across(Vec3d n) {
   return unit(axis - n * dot(axis, n));
 }
 
-// Numbers of groups of equal vertices: position, normal, texture coordinates. -0 equals 0.
+// Assigns each vertex the number of its group of equal position, normal and texture coordinates; -0 equals 0.
 std::vector<std::uint32_t> weld(const MeshPrimitive& mesh, const std::vector<Vec2f>& uvs, std::size_t& count) {
   struct Key {
     float value[8];
@@ -50,7 +50,7 @@ std::vector<std::uint32_t> weld(const MeshPrimitive& mesh, const std::vector<Vec
   return group;
 }
 
-// A triangle's direction of growing u, and its side: 0 right-handed (w 1), 1 left-handed (w -1), 2 none.
+// The direction of increasing u on a triangle, and its side: 0 right-handed (w 1), 1 left-handed (w -1), 2 no area.
 struct FaceTangent {
   Vec3d direction;
   int side = 2;
@@ -68,7 +68,7 @@ FaceTangent face_tangent(const MeshPrimitive& mesh, const std::vector<Vec2f>& uv
   return face;
 }
 
-// The triangle's angle at a corner, in the vertex's tangent plane.
+// The angle of a triangle at a corner, in the vertex's tangent plane.
 double angle_at(Vec3d here, Vec3d before, Vec3d after, Vec3d n) {
   const auto on_plane = [n](Vec3d v) { return unit(v - n * dot(v, n)); };
   const double cosine = dot(on_plane(before - here), on_plane(after - here));
@@ -117,7 +117,7 @@ void generate_tangents(MeshPrimitive& mesh, const std::vector<Vec2f>& uvs) {
   std::size_t group_count = 0;
   const std::vector<std::uint32_t> group = weld(mesh, uvs, group_count);
 
-  // Sums by group and side, in the order of the triangles.
+  // Sum the tangents by group and side, in the order of the triangles.
   std::vector<Vec3d> sum(2 * group_count, Vec3d{0, 0, 0});
   std::vector<char> has(2 * group_count, 0);
   std::vector<int> sides(mesh.indices.size() / 3);
@@ -138,7 +138,7 @@ void generate_tangents(MeshPrimitive& mesh, const std::vector<Vec2f>& uvs) {
     }
   }
 
-  // A vertex keeps its place for the first side that asks for it.
+  // The first side that uses a vertex keeps it; the second receives a copy.
   constexpr std::uint32_t kNone = 0xFFFFFFFFu;
   std::vector<std::uint32_t> place(2 * vertices, kNone), copies;
   for (std::size_t i = 0; i < mesh.indices.size(); ++i) {

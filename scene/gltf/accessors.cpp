@@ -1,4 +1,4 @@
-// Accessors: typed, strided, normalised, sparse views of buffers. Source: glTF 2.0 specification, 3.6.2.
+// Reads accessors: typed, strided, normalized, sparse views of buffers. Source: glTF 2.0 specification, 3.6.2.
 #include <cmath>
 #include <cstring>
 
@@ -29,7 +29,7 @@ std::uint32_t load_unsigned(const std::uint8_t* at, int size) {
   return value;
 }
 
-// Source: specification, 3.11, the equations for normalised integers.
+// Converts a normalized integer. Source: specification, 3.11.
 float load_component(const std::uint8_t* at, int component_type, bool normalized) {
   switch (component_type) {
     case TINYGLTF_COMPONENT_TYPE_FLOAT: {
@@ -59,13 +59,14 @@ float load_component(const std::uint8_t* at, int component_type, bool normalized
   }
 }
 
-// Where an accessor's elements lie, inside of its buffer by construction.
+// The memory of an accessor's elements. locate (below) checks that it lies inside the buffer.
 struct Elements {
-  const std::uint8_t* first = nullptr;  // null: all zero
+  const std::uint8_t* first = nullptr;  // null: all elements are zero
   std::uint64_t stride = 0;
 };
 
-// `element_bytes` of one element; `may_stride`: index and sparse data are tightly packed.
+//   element_bytes  size of one element
+//   may_stride     false for index and sparse data, which are tightly packed
 Elements locate(const Document& document, int buffer_view, std::uint64_t byte_offset, std::uint64_t count,
                 int element_bytes, int align, bool may_stride, const std::string& label) {
   const tinygltf::BufferView& view = document.model.bufferViews.at(static_cast<std::size_t>(buffer_view));
@@ -83,7 +84,7 @@ Elements locate(const Document& document, int buffer_view, std::uint64_t byte_of
   if ((view.byteOffset + byte_offset) % alignment != 0 || stride % alignment != 0) {
     fail(document.path, label + " is not aligned", "expected a multiple of " + std::to_string(align) + " bytes");
   }
-  // count < 2^32 and stride < 2^8: no overflow; offsets are below 2^40 (gltf_schema.cpp).
+  // count < 2^32 and stride < 2^8: no overflow; offsets are below 2^40 (schema.cpp).
   const std::uint64_t end = byte_offset + (count - 1) * stride + bytes;
   if (end > view.byteLength) {
     fail(document.path, label + " needs " + std::to_string(end) + " bytes",

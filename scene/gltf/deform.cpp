@@ -1,4 +1,5 @@
-// What deforms a primitive: JOINTS_n and WEIGHTS_n, morph targets. Source: glTF 2.0 specification, 3.7.2.2 and 3.7.3.3.
+// Reads joints and weights (JOINTS_n, WEIGHTS_n) and morph targets. Source: glTF 2.0 specification, 3.7.2.2 and
+// 3.7.3.3.
 #include <algorithm>
 #include <cmath>
 
@@ -31,7 +32,7 @@ void check_weight_set(const Document& document, const std::vector<float>& weight
   }
 }
 
-// Weights of sum 1, joints without weight 0.
+// Scales weights to sum 1 and replaces joints of weight 0 by joint 0.
 void normalize_weights(Document& document, MeshPrimitive& mesh) {
   const std::size_t n = mesh.influences;
   bool any_without = false;

@@ -18,10 +18,10 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian and are written as they are");
 
-using json = nlohmann::ordered_json;  // keys in the order of writing: the same bytes each time
+using json = nlohmann::ordered_json;  // keeps keys in the order of writing, so that the bytes are reproducible
 using Bytes = std::span<const std::uint8_t>;
 
-// A float's value as JSON, exactly.
+// The exact value of a float as JSON.
 json exact(float value) { return static_cast<double>(value); }
 json exact(Vec3f v) { return {exact(v.x), exact(v.y), exact(v.z)}; }
 
@@ -99,7 +99,7 @@ class GlbWriter {
     write_bytes(stream, {reinterpret_cast<const std::uint8_t*>(&value), sizeof value});
   }
 
-  // Returns the new bufferView's number.
+  // Returns the number of the new bufferView.
   std::size_t add_view(Bytes bytes, int target) {
     json view = {{"buffer", 0}, {"byteOffset", buffer_size_}, {"byteLength", bytes.size()}};
     if (target != 0) view["target"] = target;
@@ -112,7 +112,7 @@ class GlbWriter {
   template <class T>
   std::size_t add_accessor(const std::vector<T>& values, const char* type) {
     const bool is_index = std::is_same_v<T, std::uint32_t>;
-    // First: a new key in root_ moves the others.
+    // This comes first: a new key in root_ moves the others.
     const std::size_t view = add_view(bytes_of(values), is_index ? kElementArrayBuffer : kArrayBuffer);
     root_["accessors"].push_back({{"bufferView", view},
                                   {"componentType", is_index ? kUnsignedInt : kFloat},
@@ -121,7 +121,7 @@ class GlbWriter {
     return root_["accessors"].size() - 1;
   }
 
-  // Values of the writer's own making.
+  // Adds values that the writer owns.
   template <class T>
   std::size_t add_owned(const std::vector<T>& values, int component_type, const char* type, std::size_t components) {
     const Bytes bytes = bytes_of(values);
@@ -232,7 +232,7 @@ json GlbWriter::transform_json(const LocalTransform& local) const {
 void GlbWriter::add_nodes() {
   require(scene_.locals.empty() || scene_.locals.size() == scene_.nodes.size(),
           "has local transforms of some nodes only");
-  std::vector<Affine> worlds;          // as the loader will have them
+  std::vector<Affine> worlds;          // as the loader will compute them
   std::vector<std::size_t> ancestors;  // of the next node
   for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
     const Node& node = scene_.nodes[i];
@@ -436,7 +436,7 @@ int minify_code(const Sampler& sampler) {
   return 9984 + linear + (sampler.mip == MipFilter::kLinear ? 2 : 0);
 }
 
-// Each pair of image and sampler once.
+// The number of the texture for an image and a sampler; each pair is added once.
 std::size_t GlbWriter::texture_number(std::int32_t image, const Sampler& sampler) {
   const auto number_of = [](json& list, const json& item) {
     if (list.is_null()) list = json::array();
@@ -453,7 +453,7 @@ std::size_t GlbWriter::texture_number(std::int32_t image, const Sampler& sampler
   return number_of(root_["textures"], {{"sampler", sampler_number}, {"source", image}});
 }
 
-// A texture reference: the texture, its set of coordinates and their transform.
+// A texture reference: the texture, its set of texture coordinates and their transform.
 json GlbWriter::map_json(std::int32_t texture, const Sampler& sampler, const UvMap& uv) {
   require(uv.set == 0 || uv.set == 1, "reads texture coordinates numbered " + std::to_string(uv.set));
   json out = json::object();
@@ -496,7 +496,7 @@ json GlbWriter::material_json(const Material& material) {
     pbr["baseColorTexture"] =
         map_json(material.base_color_texture, material.base_color_sampler, material.base_color_uv);
   }
-  // Factors end at 1; a power of two as strength keeps every bit.
+  // glTF's factors are at most 1. A strength that is a power of two keeps every bit.
   float strength = 1;
   const Vec3f glow = material.emissive;
   while (std::max({glow.x, glow.y, glow.z}) > strength) strength *= 2;
@@ -521,7 +521,7 @@ json GlbWriter::material_json(const Material& material) {
 void GlbWriter::add_materials() {
   add_images();
   for (const Material& material : scene_.materials.materials) {
-    json out = material_json(material);  // first: it may add keys of its own, and those move root_'s members
+    json out = material_json(material);  // first: it may add keys to root_, which move its members
     root_["materials"].push_back(std::move(out));
   }
 }

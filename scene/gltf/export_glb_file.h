@@ -1,4 +1,4 @@
-// A file that appears whole or not at all: written beside its place, then renamed.
+// A file that is written beside its place and then renamed, so that it appears whole or not at all.
 #pragma once
 
 #include <fcntl.h>
@@ -14,7 +14,7 @@
 
 namespace shoal {
 
-// Unlinked unless it has been renamed.
+// The file is removed on destruction unless commit has renamed it.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& path) : path_(path), temporary_(path + ".tmp-" + std::to_string(getpid())) {

@@ -9,7 +9,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-// A float as the double that it is.
+// The exact value of a float.
 json exact(float value) { return static_cast<double>(value); }
 
 json surface_json(const SurfaceSettings& surface) {
@@ -20,7 +20,7 @@ json surface_json(const SurfaceSettings& surface) {
     if (surface.slope) out["slope"] = exact(*surface.slope);
     return out;
   }
-  // What differs from the kind's own.
+  // Only keys that differ from the defaults of the surface's kind are written.
   const SurfaceSettings plain;
   for (const SurfaceNumber& key : surface_numbers()) {
     const std::optional<double> value = key.get(surface);

@@ -1,4 +1,4 @@
-// A body of water as extras.
+// Writes a body of water as extras of a node.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,7 +7,7 @@
 
 namespace shoal {
 
-// What `extras.water` says of a body: read back, the same bits.
+// Returns the value of `extras.water`. Reading it gives the same bits.
 nlohmann::ordered_json water_json(const WaterSpec& water);
 
 }  // namespace shoal

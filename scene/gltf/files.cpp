@@ -1,4 +1,4 @@
-// Files that a scene names: read within limits, and only from the scene's folder.
+// Reads the files that a scene names, within limits and only from the scene's folder.
 #include <cctype>
 #include <cerrno>
 #include <cstring>
@@ -17,7 +17,7 @@ std::vector<std::uint8_t> read_file(const std::string& path, std::uint64_t max_b
     fail(blame, path == blame ? "cannot be opened" : "the file " + path + " cannot be opened",
          "expected a readable file");
   }
-  // Directories, devices and pipes have no size to check.
+  // Directories, devices and pipes have no size that could be checked.
   if (status.type() != fs::file_type::regular) {
     fail(blame, path == blame ? "is no regular file" : path + " is no regular file", "expected a file");
   }
@@ -50,7 +50,7 @@ int hex_value(char c) {
   return -1;
 }
 
-// RFC 3986, 2.1. A lone % stays what it is.
+// Decodes percent-encoded characters (RFC 3986, 2.1). A % without two hexadecimal digits is kept.
 std::string percent_decoded(const std::string& uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {

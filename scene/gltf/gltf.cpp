@@ -15,7 +15,7 @@ std::string one_line(const std::string& text, std::size_t max_length) {
     line.push_back(space ? ' ' : c);
     if (line.size() > max_length) {
       line.resize(max_length);
-      // Not in the middle of a UTF-8 sequence.
+      // Do not cut inside a UTF-8 sequence.
       while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xC0u) == 0x80u) line.pop_back();
       if (!line.empty() && (static_cast<unsigned char>(line.back()) & 0x80u) != 0) line.pop_back();
       return line + "...";

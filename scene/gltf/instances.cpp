@@ -1,4 +1,4 @@
-// EXT_mesh_gpu_instancing: one mesh at many places. Source: the extension's specification (Khronos Group, 2023).
+// Reads instances of a mesh. Source: EXT_mesh_gpu_instancing (Khronos Group, 2023).
 #include <algorithm>
 
 #include "scene/gltf/internal.h"
@@ -8,12 +8,12 @@ namespace {
 
 constexpr const char* kName = "EXT_mesh_gpu_instancing";
 
-// The transforms' parts, `width` doubles an instance; empty where the file leaves them out.
+// Reads one part of the transforms, `width` doubles an instance; empty where the file has none.
 std::vector<double> read_part(Document& document, const tinygltf::Value& attributes, const char* name, int type,
                               int width, std::uint64_t& count, const std::string& label) {
   if (!attributes.Has(name)) return {};
   const std::string inner = label + "." + name;
-  const auto index = static_cast<std::size_t>(attributes.Get(name).GetNumberAsInt());  // checked in the file's JSON
+  const auto index = static_cast<std::size_t>(attributes.Get(name).GetNumberAsInt());  // check_schema has checked it
   if (index >= document.model.accessors.size()) fail(document.path, inner + " has no accessor", "expected one");
   const tinygltf::Accessor& accessor = document.model.accessors[index];
   if (accessor.type != type) {

@@ -1,4 +1,4 @@
-// Shared by the files of the glTF loader only.
+// Declarations shared by the files of the glTF loader.
 #pragma once
 
 #include <cstddef>
@@ -17,85 +17,95 @@ namespace shoal::gltf {
 
 using Bytes = std::span<const std::uint8_t>;
 
-// An image as the file gives it: its encoded bytes, not decoded yet.
+// An image as the file gives it, not decoded.
 struct EncodedImage {
   std::string label;  // for messages: images[2] 'bricks.png'
-  std::string uri;    // relative file; empty: bytes
+  std::string uri;    // relative path of its file; empty: `bytes` holds it
   Bytes bytes;
-  std::vector<std::uint8_t> storage;  // of a data URI
-  bool srgb = true;                   // false: `extras.linear`, as export_glb writes it
+  std::vector<std::uint8_t> storage;  // the decoded bytes of a data URI
+  bool srgb = true;                   // false where the file has `extras.linear`, which export_glb writes
 };
 
-// A parsed file, every index and range of it checked (gltf_schema.cpp).
+// A parsed file. check_schema has checked its indices and ranges (schema.cpp).
 struct Document {
   std::string path, folder;
   LoadLimits limits;
-  tinygltf::Model model;  // without buffers and images: those are below
+  tinygltf::Model model;  // without buffers and images, which are below
   std::vector<std::uint8_t> file;
   std::vector<std::vector<std::uint8_t>> buffer_storage;
   std::vector<Bytes> buffers;
   std::vector<EncodedImage> images;
   std::vector<std::string> warnings;
-  std::uint64_t scene_bytes = 0;  // decoded so far
+  std::uint64_t scene_bytes = 0;  // memory of what is decoded so far; see charge
 
-  // Where read_nodes put each node of the file: into Scene::nodes, or kNoIndex where no scene that is drawn has it; and
-  // how many instances of its mesh follow it as nodes of their own (EXT_mesh_gpu_instancing).
+  // For each node of the file: its index in Scene::nodes, or kNoIndex where the scene that is drawn does not contain
+  // it; and the number of instances of its mesh that follow it as nodes (EXT_mesh_gpu_instancing). read_nodes fills
+  // both.
   std::vector<std::int32_t> node_places;
   std::vector<std::uint32_t> instance_counts;
 };
 
-// Throws Error: "PATH: what; expected".
+// Throws Error with the message "PATH: what; expected".
 [[noreturn]] void fail(const std::string& path, const std::string& what, const std::string& expected);
 
-// Adds a line once.
+// Adds a warning, unless the document has the same one already.
 void warn(Document& document, const std::string& line);
 
-// Counts decoded memory against the limit before it is taken.
+// Adds to the memory of decoded data before it is allocated. Throws Error above LoadLimits::max_scene_bytes.
+//   what  begins the message
 void charge(Document& document, std::uint64_t bytes, const std::string& what);
 
-// "accessors[3]", or "accessors[3] 'positions'".
+// Returns a label for messages: "accessors[3]", or "accessors[3] 'positions'".
 std::string label_of(const char* section, std::size_t index, const std::string& name = {});
 
-// Longer text is cut, line breaks and control characters become spaces: library messages, names of the file.
+// Returns a text as one line for messages: runs of spaces and control characters become one space, and text beyond
+// max_length bytes is replaced by "...".
 std::string one_line(const std::string& text, std::size_t max_length = 200);
 
-// gltf_files.cpp
+// files.cpp. Reads a file of at most max_bytes.
+//   blame  begins the message of an Error
 std::vector<std::uint8_t> read_file(const std::string& path, std::uint64_t max_bytes, const std::string& blame);
-// The file that a URI names. Refuses schemes, absolute paths and `..`, and what lies outside of the folder.
+// Returns the path that a URI names. Throws Error for schemes, absolute paths, `..`, and files outside of the scene's
+// folder.
 std::string resolve_uri(const Document& document, const std::string& uri, const std::string& label);
 
-// gltf_parse.cpp
+// parse.cpp. Reads and parses document.path.
 void parse_file(Document& document);
 
-// gltf_accessors.cpp. Elements as float, normalised integers scaled as the specification says; sparse applied.
-//   components  of one element: 1 to 4; the result has count * components floats, all finite
+// accessors.cpp. Reads the elements of an accessor as floats: normalized integers are scaled as the specification says,
+// and sparse values are applied.
+//   components  of one element: 1 to 4, or 16 of a matrix
+//   use         names the accessor in messages
+// Returns count * components floats, all finite.
 std::vector<float> read_floats(Document& document, std::size_t accessor, int components, const std::string& use);
+// Reads vertex indices, each below vertex_count.
 std::vector<std::uint32_t> read_indices(Document& document, std::size_t accessor, std::uint64_t vertex_count);
 std::uint64_t accessor_count(const Document& document, std::size_t accessor);
 
-// What a material reads of its meshes.
+// The texture coordinates and tangents that a material needs from its meshes.
 struct UvSource {
-  std::vector<int> sets;        // numbers of the file's TEXCOORD sets, by the number in UvMap::set; at most two
-  bool needs_tangents = false;  // it has a normal map, read with normal_uv
+  std::vector<int> sets;        // at most two TEXCOORD sets of the file; UvMap::set is an index into this list
+  bool needs_tangents = false;  // true where it has a normal map, which is sampled with normal_uv
   UvMap normal_uv;
 };
 
-// gltf_deform.cpp. Joints, weights and morph targets of a primitive whose positions are read.
+// deform.cpp. Reads joints, weights and morph targets of a primitive after its positions.
 void read_deformation(Document& document, const tinygltf::Primitive& primitive, std::uint64_t vertex_count,
                       const std::string& label, MeshPrimitive& mesh);
-// One vertex a corner, as the positions get where normals are generated.
+// Gives each corner a vertex of its own, as generated flat normals need.
 void expand_deformation(Document& document, MeshPrimitive& mesh, const std::string& label);
 
-// gltf_motion.cpp. Skins, morph weights and animations, once meshes and nodes are read.
+// motion.cpp. Reads skins, morph weights and animations, after meshes and nodes.
 void read_motion(Document& document, Scene& scene);
 
-// gltf_instances.cpp. Transforms of a node's instances; empty where it has none.
+// instances.cpp. Returns the transforms of a node's instances; empty where it has none.
 std::vector<LocalTransform> read_instances(Document& document, const tinygltf::Node& node, const std::string& label);
 
-// gltf_materials.cpp, gltf_meshes.cpp, gltf_nodes.cpp, gltf_water.cpp
+// materials.cpp, meshes.cpp, nodes.cpp, water.cpp
 std::vector<UvSource> read_materials(Document& document, Scene& scene);
 void read_meshes(Document& document, Scene& scene, const std::vector<UvSource>& uv_sources);
 void read_nodes(Document& document, Scene& scene);
+// Returns false where the extras describe no water.
 bool read_water(Document& document, const tinygltf::Value& extras, const std::string& label, WaterSpec& water);
 void read_background(Document& document, const tinygltf::Value& extras, const std::string& label, Scene& scene);
 void read_environment(Document& document, const tinygltf::Value& extras, const std::string& label, Scene& scene);

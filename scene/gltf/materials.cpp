@@ -1,4 +1,4 @@
-// Materials, samplers, and the textures that they use.
+// Reads materials, samplers, and the textures that materials use.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace {
 
 using tinygltf::Value;
 
-// Clamped into the range that the specification gives, with a warning.
+// Clamps a value to the range of the specification, with a warning.
 float factor(Document& document, double value, double max, const std::string& what) {
   if (!(value >= 0 && value <= max)) {
     warn(document, "some materials have a " + what + " outside of 0 to " +
@@ -83,8 +83,8 @@ double element_of(const Value& object, const char* key, int index, double fallba
   return element.IsNumber() ? element.GetNumberAsDouble() : fallback;
 }
 
-// How a texture's coordinates are made. `set` is still the file's number.
-// Source: KHR_texture_transform: its texCoord goes before the texture's own.
+// Reads the set and the transform of a texture's coordinates. UvMap::set holds the file's number here.
+// Source: KHR_texture_transform, whose texCoord overrides that of the texture reference.
 UvMap read_uv_map(const Document& document, int tex_coord, const tinygltf::ExtensionMap& extensions,
                   const std::string& label) {
   const auto it = extensions.find("KHR_texture_transform");
@@ -112,7 +112,7 @@ UvMap read_uv_map(const Document& document, int tex_coord, const tinygltf::Exten
   return map;
 }
 
-// The image behind a texture; -1: none, or none that can be read.
+// The image of a texture; -1 where there is none that can be read.
 int image_of(const Document& document, int texture) {
   return texture < 0 ? -1 : document.model.textures.at(static_cast<std::size_t>(texture)).source;
 }
@@ -134,13 +134,13 @@ Texture read_image(Document& document, const EncodedImage& image, bool srgb) {
   }
   const ImageLimits limits{document.limits.max_texture_size, document.limits.max_texels};
   const ImageSize size = image_size(bytes, name, limits);
-  // Sixteen or eight bytes a texel, and a third more for the mips.
+  // The memory of a texel and a third more for the mip levels.
   const std::uint64_t texels = static_cast<std::uint64_t>(size.width + 1) * static_cast<std::uint64_t>(size.height + 1);
   charge(document, texels * (size.is_float ? 16 : 8) / 3 * 4, image.label);
   return decode_texture(bytes, name, srgb && image.srgb, limits);
 }
 
-// Each image's place among the textures, as colours and as data; one that is both is two textures.
+// The texture of each image, as colour and as data. An image that is used as both becomes two textures.
 struct TexturePlaces {
   std::vector<std::int32_t> color, data;
 };
@@ -177,7 +177,7 @@ TexturePlaces read_textures(Document& document, Materials& materials) {
   return places;
 }
 
-// What tinygltf's kinds of texture reference have in common.
+// The common part of tinygltf's kinds of texture reference.
 template <class Info>
 MaterialMap read_map(Document& document, const Info& info, const std::vector<std::int32_t>& places,
                      const std::string& label) {
@@ -206,7 +206,7 @@ void read_base_color(Document& document, const tinygltf::Material& from, const s
   material.base_color_uv = map.uv;
 }
 
-// All maps but the base colour's.
+// Reads all maps except the base colour.
 void read_maps(Document& document, const tinygltf::Material& from, const std::string& label,
                const TexturePlaces& places, Material& material) {
   material.metallic_roughness =
@@ -226,7 +226,7 @@ void read_maps(Document& document, const tinygltf::Material& from, const std::st
   }
 }
 
-// Source: KHR_materials_ior: 1 or more, or 0 for full reflection.
+// Reads the index of refraction: 1 or more, or 0 for full reflection. Source: KHR_materials_ior.
 void read_ior(Document& document, const tinygltf::Material& from, Material& material) {
   const auto it = from.extensions.find("KHR_materials_ior");
   if (it == from.extensions.end() || !it->second.IsObject()) return;
@@ -237,7 +237,7 @@ void read_ior(Document& document, const tinygltf::Material& from, Material& mate
   material.ior = ior == 0 ? 0.0f : static_cast<float>(std::fmin(std::fmax(ior, 1.0), 1e6));
 }
 
-// Numbers the sets of coordinates that a material's textures use, two at most, in increasing order.
+// Numbers the sets of texture coordinates that a material uses, at most two, in increasing order.
 UvSource number_uv_sets(Document& document, Material& material) {
   UvSource source;
   std::vector<UvMap*> maps;

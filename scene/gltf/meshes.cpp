@@ -1,9 +1,9 @@
-// Mesh primitives as triangle lists with normals.
+// Reads mesh primitives as triangle lists with normals.
 #include <array>
 #include <cmath>
 
-#include "scene/gltf/internal.h"
 #include "scene/build/tangents.h"
+#include "scene/gltf/internal.h"
 
 namespace shoal::gltf {
 namespace {
@@ -53,7 +53,7 @@ void check_count(const Document& document, const Attribute& attribute, std::uint
   }
 }
 
-// Rescaled to unit length where it is not: quantised normals, exporters' rounding. Zero becomes +y.
+// Scales a vector to unit length where it is not (quantized normals, rounding by exporters). Zero becomes +y.
 Vec3f unit_normal(Vec3f n, bool& was_zero) {
   const double x = n.x, y = n.y, z = n.z;
   const double square = (x * x + y * y) + z * z;
@@ -66,7 +66,7 @@ Vec3f unit_normal(Vec3f n, bool& was_zero) {
   return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
 }
 
-// Geometric normal, counter-clockwise is the front; +y for a triangle without area.
+// The geometric normal of a triangle, whose front is counter-clockwise; +y for one without area.
 Vec3f flat_normal(Vec3f a, Vec3f b, Vec3f c) {
   const double ux = double{b.x} - a.x, uy = double{b.y} - a.y, uz = double{b.z} - a.z;
   const double vx = double{c.x} - a.x, vy = double{c.y} - a.y, vz = double{c.z} - a.z;
@@ -76,7 +76,7 @@ Vec3f flat_normal(Vec3f a, Vec3f b, Vec3f c) {
   return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
 }
 
-// Specification, 3.7.2.1: corners of the i-th triangle of a strip or a fan, orientation kept.
+// Turns a strip or a fan into a list of triangles; orientation is kept. Source: specification, 3.7.2.1.
 std::vector<std::uint32_t> as_triangle_list(const std::vector<std::uint32_t>& corners, int mode) {
   if (mode == TINYGLTF_MODE_TRIANGLES) return corners;
   std::vector<std::uint32_t> list;
@@ -120,7 +120,7 @@ std::vector<T> expanded(const std::vector<T>& values, const std::vector<std::uin
   return result;
 }
 
-// One vertex a corner, so that each triangle has its own normal.
+// Gives each corner a vertex of its own, so that each triangle has its own normal.
 void generate_flat_normals(Document& document, MeshPrimitive& mesh, const std::string& label) {
   const std::uint64_t corner_bytes = 2 * sizeof(Vec3f) + (mesh.uvs.empty() ? 0 : sizeof(Vec2f)) +
                                      (mesh.uvs1.empty() ? 0 : sizeof(Vec2f)) +
@@ -169,7 +169,7 @@ void read_normals(Document& document, const Attribute& attribute, const std::str
   if (any_zero) warn(document, "some normals have no length: +y is used for them");
 }
 
-// One set of the file; empty where the primitive lacks it.
+// Reads one TEXCOORD set of the file; empty where the primitive has none.
 std::vector<Vec2f> read_uvs(Document& document, const tinygltf::Primitive& primitive, int set, std::uint64_t count,
                             const std::string& label) {
   const std::string name = "TEXCOORD_" + std::to_string(set);
@@ -182,7 +182,7 @@ std::vector<Vec2f> read_uvs(Document& document, const tinygltf::Primitive& primi
   return uvs;
 }
 
-// Of unit length, w 1 or -1. A tangent without a direction goes along x: nothing sensible can be made of it.
+// Reads tangents of unit length, w 1 or -1. A zero tangent becomes +x.
 void read_tangents(Document& document, const Attribute& attribute, const std::string& label, MeshPrimitive& mesh) {
   const std::vector<float> values = read_floats(document, attribute.accessor, 4, label + ".TANGENT");
   mesh.tangents.resize(values.size() / 4);
@@ -221,7 +221,8 @@ void read_colors(Document& document, const Attribute& attribute, const std::stri
 void warn_unread(Document& document, const tinygltf::Primitive& primitive) {
   for (const auto& [name, accessor] : primitive.attributes) {
     (void)accessor;
-    // Sets that no texture uses and tangents without a normal map change nothing; joints and weights belong to skins.
+    // Sets that no texture uses and tangents without a normal map have no effect; read_deformation reads joints and
+    // weights.
     const bool known = name == "POSITION" || name == "NORMAL" || name == "TANGENT" || name == "COLOR_0" ||
                        name.rfind("TEXCOORD_", 0) == 0 || name.rfind("JOINTS_", 0) == 0 ||
                        name.rfind("WEIGHTS_", 0) == 0;
@@ -253,7 +254,7 @@ MeshPrimitive read_primitive(Document& document, const tinygltf::Primitive& prim
   if (color.present) check_count(document, color, count, "COLOR_0", label);
 
   MeshPrimitive mesh;
-  read_positions(document, position, label, mesh);  // first: what has no bytes has a limit of elements
+  read_positions(document, position, label, mesh);  // first: an accessor without bytes has a limit of elements
   mesh.indices = read_corners(document, primitive, count, label);
   if (normal.present) read_normals(document, normal, label, mesh);
   mesh.uvs = read_uvs(document, primitive, uv_source.sets.empty() ? 0 : uv_source.sets[0], count, label);
@@ -261,7 +262,7 @@ MeshPrimitive read_primitive(Document& document, const tinygltf::Primitive& prim
   if (color.present) read_colors(document, color, label, mesh);
   read_deformation(document, primitive, count, label, mesh);
   if (!normal.present) generate_flat_normals(document, mesh, label);
-  // Specification, 3.7.2.1: tangents without normals are ignored.
+  // Tangents without normals are ignored (specification, 3.7.2.1).
   if (uv_source.needs_tangents) {
     if (tangent.present && normal.present) {
       read_tangents(document, tangent, label, mesh);

@@ -1,4 +1,4 @@
-// Skins, morph weights and animations. Source: glTF 2.0 specification, 3.7.2.2, 3.7.3 and 3.11.
+// Reads skins, morph weights and animations. Source: glTF 2.0 specification, 3.7.2.2, 3.7.3 and 3.11.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -101,7 +101,7 @@ class MotionReader {
     return skin;
   }
 
-  // The file's skins are of no node that is drawn.
+  // Removes joints and weights where no node that is drawn has a skin.
   void forget_joints() {
     for (Mesh& mesh : scene_.meshes) {
       for (MeshPrimitive& primitive : mesh.primitives) {
@@ -120,7 +120,7 @@ class MotionReader {
     return primitives.empty() ? 0 : primitives.front().targets.size();
   }
 
-  // The node's own, else the mesh's, else zeros.
+  // The weights of the node, or those of the mesh, or zeros.
   void read_weights(std::size_t file_node) {
     const tinygltf::Node& from = document_.model.nodes[file_node];
     const auto mesh = static_cast<std::size_t>(from.mesh);
@@ -186,7 +186,7 @@ class MotionReader {
     }
     const auto file_node = static_cast<std::size_t>(file_channel.target_node);
     channel.node = document_.node_places.at(file_node);
-    if (channel.node == kNoIndex) return;  // of another scene
+    if (channel.node == kNoIndex) return;  // the node belongs to another scene
     const bool of_weights = channel.path == ChannelPath::kWeights;
     if (!of_weights && scene_.locals[static_cast<std::size_t>(channel.node)].is_matrix) {
       wrong(label + " moves " + label_of("nodes", file_node) + ", which has a matrix",
@@ -277,7 +277,7 @@ class MotionReader {
   static constexpr float kMaxWeight = 1e6f;
   Document& document_;
   Scene& scene_;
-  std::set<std::pair<std::size_t, ChannelPath>> moved_;  // by the animation that is being read
+  std::set<std::pair<std::size_t, ChannelPath>> moved_;  // properties that the animation being read moves
 };
 
 }  // namespace

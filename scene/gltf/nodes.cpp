@@ -1,4 +1,4 @@
-// Cameras, lights, and the node tree, depth first.
+// Reads cameras, lights, and the tree of nodes, depth first.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@
 namespace shoal::gltf {
 namespace {
 
-// A number as float, within a range.
+// Rounds a number to float. Throws Error where it is not within (above, below).
 float in_range(const Document& document, double value, double above, double below, const std::string& what,
                const std::string& expected) {
   const auto narrow_value = static_cast<float>(value);
@@ -43,7 +43,7 @@ CameraSpec read_camera(const Document& document, const tinygltf::Camera& from, c
   return camera;
 }
 
-// Source: KHR_lights_punctual. tinygltf's range is 0 where the file gives none.
+// Reads a light; tinygltf's range is 0 where the file gives none. Source: KHR_lights_punctual.
 LightSpec read_light(Document& document, const tinygltf::Light& from, const std::string& label) {
   LightSpec light;
   const auto check = [&](double value, const char* what) {
@@ -65,7 +65,7 @@ LightSpec read_light(Document& document, const tinygltf::Light& from, const std:
   light.kind = from.type == "point" ? LightKind::kPoint : LightKind::kSpot;
   light.range_m = check(from.range, "range");
   if (light.kind == LightKind::kPoint) return light;
-  constexpr double kQuarterTurn = 1.5707965;  // as a float, so that an exported one is in
+  constexpr double kQuarterTurn = 1.5707965;  // rounded to float, so that an exported angle is in range
   double inner = from.spot.innerConeAngle;
   const double outer = from.spot.outerConeAngle;
   if (!(inner >= 0 && outer > 0 && outer <= kQuarterTurn)) {
@@ -81,7 +81,7 @@ LightSpec read_light(Document& document, const tinygltf::Light& from, const std:
   return light;
 }
 
-// Column-major in the file.
+// The file's matrix is column-major.
 LocalTransform matrix_transform(const Document& document, const std::vector<double>& m, const std::string& label) {
   if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
     fail(document.path, label + ".matrix has a projective part", "expected 0 0 0 1 as its last row");
@@ -144,7 +144,7 @@ class TreeReader {
     }
   }
 
-  // Depth first without recursion: a file may nest its nodes deeper than a stack is.
+  // Traverses depth first without recursion, because a file may nest its nodes deeper than the call stack allows.
   void run(const std::vector<int>& roots) {
     struct Visit {
       int node;
@@ -194,7 +194,7 @@ class TreeReader {
     add_instances(index, instances, label);
   }
 
-  // What stands in a node's place where the mesh is there many times.
+  // The instances of a node's mesh; empty where it is drawn once.
   std::vector<LocalTransform> instances_of(const tinygltf::Node& from, const Node& node, const std::string& label) {
     std::vector<LocalTransform> instances = read_instances(document_, from, label);
     if (instances.empty()) return instances;
@@ -248,7 +248,7 @@ class TreeReader {
       fail(document_.path, "draws more than " + std::to_string(document_.limits.max_triangles) + " triangles",
            "expected fewer (meshes count once for each node)");
     }
-    // What a node draws is placed in the world vertex by vertex, whatever its triangles use.
+    // All vertices of a mesh are transformed for each node that uses it, also those that no triangle uses.
     charge(document_,
            sizes_[mesh].vertices * (sizeof(VertexRecord) + sizeof(Vec3f)) +
                sizes_[mesh].triangles * (sizeof(Geometry::TriangleRecord) + 3),
@@ -271,7 +271,7 @@ class TreeReader {
         warn(document_, "extension " + one_line(name, 60) + " is not read yet");
         continue;
       }
-      // The index was checked in the file's JSON; the parsed copy is checked again, it costs nothing.
+      // check_schema has checked the index in the JSON; this checks the parsed copy.
       const int light = value.IsObject() && value.Has("light") ? value.Get("light").GetNumberAsInt() : -1;
       if (light < 0 || static_cast<std::size_t>(light) >= scene_.lights.size()) {
         fail(document_.path, label + " names light " + std::to_string(light), "expected one of the file's lights");

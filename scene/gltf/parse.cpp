@@ -1,4 +1,5 @@
-// From a file to a checked Document: container, JSON, buffers; then tinygltf, which never opens a file itself.
+// Parses a file into a checked Document: container, JSON, buffers, and the model by tinygltf, which opens no file
+// itself.
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
@@ -21,7 +22,7 @@ struct Container {
   bool has_bin = false;
 };
 
-// Source: glTF 2.0 specification, 4.4 (binary layout).
+// Splits a binary file into its chunks. Source: glTF 2.0 specification, 4.4.
 Container split_glb(const Document& document) {
   const Bytes file = document.file;
   const std::string& path = document.path;
@@ -58,7 +59,8 @@ Container split_glb(const Document& document) {
   return parts;
 }
 
-// Library parsers recurse: the depth is counted first. So are the values: two bytes of text become some 150 of memory.
+// Counts nesting depth and values before a library parses the text: parsers recurse, and a value of two bytes of text
+// can take 150 bytes of memory.
 void check_shape(const Document& document, Bytes text) {
   int depth = 0;
   std::uint64_t values = 1;
@@ -113,7 +115,7 @@ std::vector<std::uint8_t> decode_data_uri(const Document& document, const std::s
     fail(document.path, label + " has a data URI that cannot be decoded (" + one_line(uri.substr(0, 40), 40) + "...)",
          "expected base64 data of application/octet-stream, application/gltf-buffer, image/png or image/jpeg");
   }
-  // The decoder stops silently at the first character that is not of base64.
+  // The decoder stops without an error at the first character that is not base64.
   std::size_t digits = uri.size() - comma - 1;
   while (digits > 0 && uri[comma + digits] == '=') --digits;
   if (bytes.size() != digits * 3 / 4) {
@@ -136,7 +138,7 @@ void load_buffers(Document& document, const json& root, const Container& parts) 
              "expected where its bytes are");
       }
       bytes = parts.bin;
-      // The chunk may be up to three bytes of padding longer than the buffer; more is none of our business.
+      // Padding makes the chunk up to three bytes longer than the buffer; the loader ignores further bytes.
     } else {
       const std::string& uri = buffers[i]["uri"].get_ref<const std::string&>();
       std::vector<std::uint8_t>& storage = document.buffer_storage[i];
@@ -178,7 +180,7 @@ void list_images(Document& document, const json& root) {
   }
 }
 
-// No file is opened by the library, whatever it is told.
+// These callbacks keep the library from opening files.
 tinygltf::FsCallbacks closed_file_system() {
   tinygltf::FsCallbacks callbacks{};
   callbacks.FileExists = [](const std::string&, void*) { return false; };
@@ -191,7 +193,7 @@ tinygltf::FsCallbacks closed_file_system() {
 }
 
 void run_tinygltf(Document& document, json& root) {
-  // Buffers and images are read by our own bounded code: the library hands out pointers past a buffer's end.
+  // The loader reads buffers and images itself with bounds checks, because the library does not check all ranges.
   root.erase("buffers");
   root.erase("images");
   const std::string text = root.dump();
@@ -200,7 +202,7 @@ void run_tinygltf(Document& document, json& root) {
   std::string errors, warnings;
   const bool ok = loader.LoadASCIIFromString(&document.model, &errors, &warnings, text.data(),
                                              static_cast<unsigned int>(text.size()), "", tinygltf::REQUIRE_VERSION);
-  // The library drops what it cannot parse and says so in `errors`, yet succeeds.
+  // The library reports success even where it drops data that it cannot parse; `errors` names them.
   if (!ok || !errors.empty()) {
     const std::string message = one_line(errors);
     fail(document.path, "is no valid glTF (" + (message.empty() ? "no reason given" : message) + ")",

@@ -13,7 +13,7 @@ using nlohmann::json;
 constexpr std::uint64_t kMaxIndex = 0x7FFFFFFF;
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 40;
 
-// Read at all, and enough of each to draw what it asks for.
+// The extensions that a file may require: the loader reads enough of each to draw it.
 constexpr const char* kSupportedExtensions[] = {
     "EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_emissive_strength",
     "KHR_materials_ior",       "KHR_materials_unlit", "KHR_mesh_quantization",
@@ -43,7 +43,7 @@ class Checker {
                     40);
   }
 
-  // The member, or null where it is absent and may be.
+  // Returns a member, or null where an optional one is absent.
   json* member(json& object, const char* key, const std::string& where, Need need = Need::kOptional) const {
     const auto it = object.find(key);
     if (it != object.end()) return &*it;
@@ -383,7 +383,7 @@ void Checker::check_nodes() const {
   try {
     light_count = root_.at("extensions").at("KHR_lights_punctual").at("lights").size();
   } catch (const json::exception&) {
-    light_count = 0;  // none in the file
+    light_count = 0;
   }
   each("nodes", [&](json& node, const std::string& where) {
     index(node, "mesh", where, "meshes");
@@ -418,7 +418,7 @@ void Checker::check_nodes() const {
   index(root_, "scene", "the file", "scenes");
 }
 
-// Every node has one parent at most, and no node is below itself.
+// Checks that every node has at most one parent and that no node is its own ancestor.
 void Checker::check_trees() const {
   std::vector<std::int64_t> parent(count("nodes"), -1);
   each("nodes", [&](json& node, const std::string& where) {
@@ -434,7 +434,7 @@ void Checker::check_trees() const {
       parent[c] = static_cast<std::int64_t>(self);
     }
   });
-  // Walk up from each node; what one walk has seen no later walk visits again.
+  // Walk up from each node. A later walk stops at nodes that an earlier one has visited.
   std::vector<std::size_t> seen_by(parent.size(), 0);
   for (std::size_t i = 0; i < parent.size(); ++i) {
     for (std::int64_t n = static_cast<std::int64_t>(i); n >= 0; n = parent[static_cast<std::size_t>(n)]) {
@@ -493,7 +493,7 @@ void Checker::check_animations() const {
       index(*target, "node", inner + ".target", "nodes");
       string(*target, "path", inner + ".target", Need::kRequired);
     }
-    // The specification has them ignored; the library refuses them.
+    // The specification says to ignore them; the library would refuse them.
     const std::size_t all = channels->size();
     for (std::size_t i = all; i-- > 0;) {
       if (!(*channels)[i]["target"].contains("node")) channels->erase(i);

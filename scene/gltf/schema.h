@@ -1,4 +1,4 @@
-// The shape of a glTF file's JSON, checked before anything is made of it.
+// Checks the structure of a glTF file's JSON before the loader uses it.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,8 +7,10 @@
 
 namespace shoal::gltf {
 
-// Checks every property that Shoal or the parser reads: type, range, that an index has something to point at, that byte
-// ranges lie in their buffers, that nodes form trees. Whole numbers written as 3.0 become integers. Throws Error.
+// Checks every property that Shoal or the parser reads: its type and range, that an index refers to an existing
+// element, that byte ranges lie inside their buffers, and that nodes form trees. Replaces whole numbers written as 3.0
+// by integers. Throws
+// Error.
 void check_schema(Document& document, nlohmann::json& root);
 
 }  // namespace shoal::gltf

@@ -1,4 +1,4 @@
-// Water, background and environment from extras. docs/scenes.md lists the keys.
+// Reads water, background and environment from extras. docs/scenes.md lists the keys.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -11,7 +11,7 @@ namespace {
 
 using tinygltf::Value;
 
-// Read from `extras.water` and from flat keys such as `water_ior`; the flat ones win.
+// The keys of `extras.water` and flat keys such as `water_ior`. A flat key overrides the other.
 constexpr const char* kBodyKeys[] = {"size", "depth", "ior", "absorption", "surface", "geometry"};
 template <std::size_t N>
 bool is_one_of(const std::string& text, const char* const (&list)[N]) {
@@ -25,7 +25,7 @@ std::string joined(const char* const (&list)[N]) {
   return text;
 }
 
-// Numbers within [min, max], as float; `above`: min itself is out.
+// The numbers within [min, max], or (min, max] where `above` is set.
 struct Range {
   double min, max;
   bool above = false;
@@ -61,7 +61,7 @@ std::string kind_names() {
   return text;
 }
 
-// A kind's name, or several with + between: their sum.
+// Reads the name of a surface, or of several joined by +, which are added.
 void read_surface_type(Document& document, const Value& value, const std::string& what, SurfaceSettings& surface) {
   if (!value.IsString()) fail(document.path, what + " is no name", "expected the type of a surface, such as flat");
   const std::string& type = value.Get<std::string>();
@@ -82,7 +82,7 @@ bool is_surface_key(const std::string& key) {
   return key == "type" || find_surface_number(key) != nullptr || find_surface_choice(key) != nullptr;
 }
 
-// Any key of is_surface_key but the type, which says what the others are set on and comes first.
+// Reads the surface's keys except the type, which comes first because the other keys depend on it.
 void read_surface_key(Document& document, const std::string& key, const Value& value, const std::string& what,
                       SurfaceSettings& surface) {
   if (const SurfaceNumber* number = find_surface_number(key)) {
@@ -219,7 +219,7 @@ bool read_water(Document& document, const Value& extras, const std::string& labe
   bool is_water = false;
   if (extras.Has("water")) {
     const Value& value = extras.Get("water");
-    // Blender's check boxes export as true, older ones as 1.
+    // Blender exports check boxes as true, older versions as 1.
     if (value.IsBool()) {
       is_water = value.Get<bool>();
     } else if (value.IsNumber()) {
@@ -235,7 +235,7 @@ bool read_water(Document& document, const Value& extras, const std::string& labe
     if (!is_water) return false;
   }
   const std::string prefix = "water_";
-  // The type first: the surface's other keys are set on it.
+  // The type comes first: the surface's other keys depend on it.
   for (const char* name : {"water_surface", "water_type"}) {
     if (!extras.Has(name)) continue;
     read_surface(document, extras.Get(name), label + ".extras." + name, water.surface, 0);

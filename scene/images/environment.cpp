@@ -14,9 +14,9 @@ namespace {
 constexpr ImageLimits kLimits{8192, std::uint64_t{8192} * 4096};
 constexpr float kMaxRadiance = 1e9f;
 
-// Numbers that light cannot have, replaced; how many texels had one.
-std::size_t tame(std::vector<float>& rgb) {
-  std::size_t tamed = 0;
+// Replaces radiances that are negative, NaN or above kMaxRadiance. Returns the number of texels with one.
+std::size_t clamp_radiance(std::vector<float>& rgb) {
+  std::size_t replaced = 0;
   for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
     bool odd = false;
     for (std::size_t c = i; c < i + 3; ++c) {
@@ -24,9 +24,9 @@ std::size_t tame(std::vector<float>& rgb) {
       odd = true;
       rgb[c] = rgb[c] > kMaxRadiance ? kMaxRadiance : 0.0f;
     }
-    if (odd) ++tamed;
+    if (odd) ++replaced;
   }
-  return tamed;
+  return replaced;
 }
 
 }  // namespace
@@ -37,8 +37,8 @@ std::shared_ptr<const Environment> load_environment(const std::string& path, con
   LinearImage decoded = decode_linear(read_image_file(path), path, kLimits);
   EquirectImage image{decoded.width, decoded.height, std::move(decoded.rgb)};
   warning.clear();
-  if (const std::size_t tamed = tame(image.rgb); tamed != 0) {
-    warning = std::to_string(tamed) + " texels are negative or no numbers (they count as 0) or above 1e9 (as that)";
+  if (const std::size_t replaced = clamp_radiance(image.rgb); replaced != 0) {
+    warning = std::to_string(replaced) + " texels are negative or no numbers (they count as 0) or above 1e9 (as that)";
   }
   if (cache.empty()) return std::make_shared<const Environment>(make_environment(image, pool));
   const std::string key = environment_key(image);

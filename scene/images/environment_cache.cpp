@@ -17,7 +17,8 @@ namespace shoal {
 namespace fs = std::filesystem;
 namespace {
 
-// The file: this, the key, what `describe` lists in little-endian order, and the digest of all before it.
+// The file consists of this text, the key, the fields that `describe` lists in little-endian order, and the digest of
+// all bytes before it.
 constexpr std::string_view kMagic = "shoal environment\n";
 constexpr std::size_t kDigestSize = 32;
 
@@ -35,7 +36,7 @@ void describe(E& e, Part part) {
   part(e.texels.data(), e.texels.size() * sizeof e.texels[0]);
 }
 
-// Every lookup stays inside.
+// Returns whether every lookup stays inside the texels.
 bool is_sound(const Environment& e) {
   std::int64_t texels = 0;
   for (std::size_t k = 0; k < 16; ++k) {

@@ -1,4 +1,4 @@
-// Filtered environments on disk.
+// The cache of filtered environments on disk.
 #pragma once
 
 #include <memory>
@@ -8,13 +8,13 @@
 
 namespace shoal {
 
-// What a cached result depends on, in 32 hexadecimal digits: the picture's numbers and kEnvironmentVersion.
+// Returns the key of a cached environment, 32 hexadecimal digits: a digest of the picture and kEnvironmentVersion.
 std::string environment_key(const EquirectImage& image);
 
-// Null where the folder has none of that key, or one that is damaged.
+// Returns null where the folder has no environment of that key, or a damaged one.
 std::shared_ptr<const Environment> read_cached_environment(const std::string& folder, const std::string& key);
 
-// Written beside its place, then renamed. Silent where it cannot be.
+// Writes an environment beside its place, then renames it. A failure is ignored.
 void write_cached_environment(const std::string& folder, const std::string& key, const Environment& environment);
 
 }  // namespace shoal

@@ -19,7 +19,7 @@ std::uint32_t read_u32(Bytes bytes, std::size_t at) {
          static_cast<std::uint32_t>(bytes[at + 2]) << 16 | static_cast<std::uint32_t>(bytes[at + 3]) << 24;
 }
 
-// Steps over a string that ends in a zero; its length, or fails.
+// Returns the length of a zero-terminated string. Throws Error where it does not end.
 std::size_t string_length(Bytes file, std::size_t at, const std::string& name) {
   constexpr std::size_t kMaxName = 255;
   std::size_t length = 0;
@@ -30,10 +30,10 @@ std::size_t string_length(Bytes file, std::size_t at, const std::string& name) {
   return length;
 }
 
-// Lines in a chunk, by the attribute `compression`: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
+// The number of lines in a chunk by compression: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
 constexpr std::uint64_t kLinesInChunk[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 
-// The library reads a value of these types by their own size, whatever length the file gives it.
+// Types whose value the library reads by the size of the type, not by the length that the file gives.
 struct FixedType {
   const char* name;
   std::size_t size;
@@ -65,7 +65,7 @@ constexpr FixedType kFixedTypes[] = {
     {"v3i", 12},
 };
 
-// Names, each with 16 bytes after it, up to an empty one at the end.
+// Checks a list of names, each followed by 16 bytes and the last one empty.
 bool is_channel_list(Bytes data, const std::string& name) {
   std::size_t at = 0;
   while (at < data.size() && data[at] != 0) {
@@ -76,7 +76,7 @@ bool is_channel_list(Bytes data, const std::string& name) {
   return at + 1 == data.size();
 }
 
-// Lengths, each with as many bytes after it.
+// Checks a list of lengths, each followed by as many bytes.
 bool is_string_vector(Bytes data) {
   std::size_t at = 0;
   while (data.size() - at >= 4) {
@@ -94,13 +94,13 @@ bool is_preview(Bytes data) {
   return width <= data.size() && height <= data.size() && width * height * 4 == data.size() - 8;
 }
 
-// False where the library would not stop at the value's end. Strings and types that it does not know end where they
-// say.
+// Returns false where the library would read beyond the end of the value. It reads strings and unknown types by their
+// length.
 bool has_its_size(const std::string& type, Bytes data, const std::string& name) {
   if (type == "chlist") return is_channel_list(data, name);
   if (type == "stringvector") return is_string_vector(data);
   if (type == "preview") return is_preview(data);
-  if (type == "idmanifest") return false;  // compressed, of any size once it is not
+  if (type == "idmanifest") return false;  // compressed; its decoded size is not bounded
   const auto* fixed =
       std::find_if(std::begin(kFixedTypes), std::end(kFixedTypes), [&](const FixedType& t) { return type == t.name; });
   return fixed == std::end(kFixedTypes) || fixed->size == data.size();
@@ -113,7 +113,7 @@ struct Header {
   bool has_channels = false;
 };
 
-// xMin, yMin, xMax, yMax, both ends within.
+// Reads the data window xMin, yMin, xMax, yMax, which includes both ends.
 void read_window(Bytes data, const std::string& name, Header& header) {
   if (data.size() != 16) fail(name, "is damaged (its data window)");
   const auto side = [&](std::size_t at) {
@@ -162,7 +162,7 @@ void check_sizes(const Header& header, bool tiled, std::size_t left, const std::
     const std::uint64_t lines = kLinesInChunk[header.compression];
     chunks = (header.height + lines - 1) / lines;
   }
-  // Eight bytes of place and as many at least of the chunk itself.
+  // A chunk needs eight bytes in the table of offsets and at least eight of its own.
   if (chunks * 16 > left) fail(name, "is cut short");
 }
 

@@ -11,9 +11,9 @@
 #include <memory>
 
 #include "core/error.h"
-#include "shading/srgb.h"
 #include "scene/images/exr.h"
 #include "scene/images/png.h"
+#include "shading/srgb.h"
 
 namespace shoal {
 namespace {
@@ -24,7 +24,7 @@ using Encoded = std::span<const std::uint8_t>;
   throw Error(name + ": " + what + "; " + expected);
 }
 
-// OpenImageIO's messages may have several lines.
+// Joins the lines of OpenImageIO's messages.
 std::string on_one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
@@ -39,7 +39,7 @@ bool starts_with(Encoded bytes, std::initializer_list<int> magic) {
 
 enum class Format { kPng, kJpeg, kHdr, kExr };
 
-// Only these four readers of OpenImageIO's many ever see a file.
+// Only these four of OpenImageIO's readers are used.
 Format format_of(Encoded bytes, const std::string& name) {
   if (starts_with(bytes, {0x89, 'P', 'N', 'G', 0x0D, 0x0A, 0x1A, 0x0A})) return Format::kPng;
   if (starts_with(bytes, {0xFF, 0xD8, 0xFF})) return Format::kJpeg;
@@ -63,10 +63,11 @@ const char* reader_name(Format format) {
   return "";
 }
 
-// libjpeg fills what is missing with grey and succeeds: the segments are walked to the end marker first.
+// Checks that a JPEG is complete, because libjpeg fills missing data with grey and reports success: every segment up to
+// the end marker is there.
+//   scans  receives the number of scans; each scan of a progressive JPEG can be as short as 12 bytes and is a pass over
+//          the whole picture
 // Source: ITU-T T.81, annex B.
-//   scans  receives how many there are: each of a progressive JPEG is a pass over the whole picture, in as little as 12
-//          bytes
 bool jpeg_has_end(Encoded bytes, int& scans) {
   std::size_t at = 2;
   scans = 0;
@@ -84,7 +85,7 @@ bool jpeg_has_end(Encoded bytes, int& scans) {
     at += static_cast<std::size_t>(bytes[at]) << 8 | bytes[at + 1];
     if (marker != 0xDA) continue;
     ++scans;
-    // Coded data: up to a marker that is neither a stuffed zero nor a restart.
+    // Coded data end at a marker that is neither a stuffed zero nor a restart.
     const auto is_data = [&](int next) { return next == 0 || (next >= 0xD0 && next <= 0xD7); };
     while (at + 1 < bytes.size() && (bytes[at] != 0xFF || is_data(bytes[at + 1]))) ++at;
   }
@@ -100,7 +101,7 @@ void check_jpeg(Encoded bytes, const std::string& name) {
   }
 }
 
-// A file in memory. The library's own reader believes any place that a damaged file names, ones before it too.
+// Reads from memory with bounds checks. The library's own proxy accepts any position that a damaged file names.
 class BoundedMemory final : public OIIO::Filesystem::IOMemReader {
  public:
   using IOMemReader::IOMemReader;
@@ -157,7 +158,7 @@ ImageSize checked_size(const Reader& reader, const ImageLimits& limits) {
   return {spec.width, spec.height, reader.format == Format::kHdr || reader.format == Format::kExr};
 }
 
-// Channel numbers of red, green, blue and alpha; -1: none.
+// The channel numbers of red, green, blue and alpha; -1 for a missing one.
 struct ChannelMap {
   int r = 0, g = 0, b = 0, a = -1;
 };
@@ -180,8 +181,8 @@ std::vector<T> read_channels(Reader& reader, int channels, OIIO::TypeDesc type) 
     values.resize(all);
     ok = reader.input->read_image(0, 0, 0, channels, type, values.data());
   } else {
-    // Band after band: a small file that promises a large image touches little memory before it turns out.
-    constexpr int kBand = 256;  // rows, a multiple of those in a chunk of any compression of OpenEXR
+    // Reading in bands keeps a small file with a large size in its header from touching much memory before it fails.
+    constexpr int kBand = 256;  // rows; a multiple of the lines in a chunk for every compression of OpenEXR
     for (int y = 0; ok && y < spec.height; y += kBand) {
       const int rows = std::min(kBand, spec.height - y);
       const std::size_t first = values.size();
@@ -196,7 +197,7 @@ std::vector<T> read_channels(Reader& reader, int channels, OIIO::TypeDesc type) 
   return values;
 }
 
-// Widened to RGBA by `convert`, one channel at a time.
+// Expands an image to RGBA; `convert` converts one channel value.
 template <class To, class From, class Convert>
 std::vector<To> to_rgba(const std::vector<From>& from, std::size_t channels, const ChannelMap& map, To opaque,
                         Convert convert) {
@@ -217,7 +218,7 @@ float tamed(float value) {
   return std::clamp(value, -1e9f, 1e9f);
 }
 
-// The nearest of 8 bits, ties up: 257 sixteen-bit steps are one of eight bits.
+// Rounds 16 bits to the nearest 8-bit value, ties up: 257 steps of 16 bits are one step of 8 bits.
 std::uint8_t rounded_to_8_bits(std::uint16_t value) {
   return static_cast<std::uint8_t>((static_cast<std::uint32_t>(value) + 128u) / 257u);
 }
@@ -294,7 +295,7 @@ LinearImage decode_linear(Encoded encoded, const std::string& name, const ImageL
         image.rgb[3 * i + c] = to_linear(values[i * count + static_cast<std::size_t>(channel[c])]);
     }
   };
-  // Every code's linear light once: 8 bits repeated are 16.
+  // A table of linear light for all 16-bit codes. An 8-bit code repeated gives its 16-bit code.
   const auto decoded_codes = [](std::size_t codes) {
     std::vector<float> table(codes);
     for (std::size_t i = 0; i < codes; ++i)
@@ -323,11 +324,11 @@ std::vector<std::uint8_t> encode_texture(const Texture& texture, const std::stri
   if (texture.format != TexelFormat::kRgba32Float) {
     const std::vector<std::uint8_t> rgba = texture_bytes(texture);
     OIIO::ImageSpec spec(width, height, 4, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:UnassociatedAlpha", 1);  // else colours are divided by alpha
+    spec.attribute("oiio:UnassociatedAlpha", 1);  // otherwise colours are divided by alpha
     write_or_fail(OIIO::ImageOutput::create("image.png"), spec, sink, OIIO::TypeDesc::UINT8, rgba.data(), name);
     return file;
   }
-  // Rows are stored with one more texel at their end.
+  // A texture stores one more texel at the end of each row.
   const auto row = static_cast<std::size_t>(width) * 4;
   std::vector<float> rgba(row * static_cast<std::size_t>(height));
   for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
@@ -335,7 +336,7 @@ std::vector<std::uint8_t> encode_texture(const Texture& texture, const std::stri
     std::copy(from, from + row, &rgba[y * row]);
   }
   OIIO::ImageSpec spec(width, height, 4, OIIO::TypeDesc::FLOAT);
-  spec.attribute("DateTime", "1970:01:01 00:00:00");  // else the writer puts the present time
+  spec.attribute("DateTime", "1970:01:01 00:00:00");  // otherwise the writer stores the current time
   spec.attribute("compression", "zip");
   write_or_fail(OIIO::ImageOutput::create("image.exr"), spec, sink, OIIO::TypeDesc::FLOAT, rgba.data(), name);
   return file;

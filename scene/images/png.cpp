@@ -30,7 +30,7 @@ constexpr std::array<std::uint32_t, 256> make_crc_table() {
 }
 constexpr std::array<std::uint32_t, 256> kCrcTable = make_crc_table();
 
-// Source: the specification's annex D.
+// The checksum of a chunk. Source: the specification's annex D.
 std::uint32_t crc_of(Bytes bytes) {
   std::uint32_t crc = 0xFFFFFFFFu;
   for (const std::uint8_t byte : bytes) crc = kCrcTable[(crc ^ byte) & 0xFFu] ^ (crc >> 8);
@@ -39,7 +39,7 @@ std::uint32_t crc_of(Bytes bytes) {
 
 bool is(Bytes type, const char* name) { return std::memcmp(type.data(), name, 4) == 0; }
 
-// 11.2.2: which depths each colour type has, and what the other fields may be.
+// Checks the bit depth for the colour type, and the other fields. Source: the specification, 11.2.2.
 void check_header(Bytes data, const std::string& name) {
   if (data.size() != 13) fail(name, "has a header of the wrong size");
   const std::string size = std::to_string(read_u32(data, 0)) + " x " + std::to_string(read_u32(data, 4));
@@ -51,8 +51,8 @@ void check_header(Bytes data, const std::string& name) {
   if (!ok || data[10] != 0 || data[11] != 0 || data[12] > 1) fail(name, "has a header with invalid fields");
 }
 
-// Deflate makes at most 258 bytes of two bits: a header that promises more than that lies.
-void check_promise(Bytes header, std::size_t data_bytes, const std::string& name) {
+// Checks that the compressed data can hold the pixels: Deflate expands two bits to at most 258 bytes.
+void check_compressed_size(Bytes header, std::size_t data_bytes, const std::string& name) {
   constexpr double kMostOfAByte = 258.0 * 8 / 2;
   constexpr int kChannels[] = {1, 0, 3, 1, 2, 0, 4};
   const double texels = static_cast<double>(read_u32(header, 0)) * read_u32(header, 4);
@@ -94,7 +94,7 @@ std::vector<std::uint8_t> png_pixels_only(Bytes file, const std::string& name) {
     }
     if (is(type, "IEND")) {
       if (data_bytes == 0) fail(name, "holds no pixels");
-      check_promise(file.subspan(kSignature + 8, 13), data_bytes, name);
+      check_compressed_size(file.subspan(kSignature + 8, 13), data_bytes, name);
       return kept;
     }
     at += length + 12;

@@ -1,5 +1,5 @@
-// `ball` and `knot`: the objects over water of Li et al.'s Table 1, a ball of 39936 triangles, and in the place of
-// their dragon of 2.4 million a torus knot set with studs. Both lie in the same basin of few triangles.
+// The scenes `ball` and `knot`: objects over water as in Li et al.'s Table 1, a ball of 39936 triangles and, instead of
+// their dragon of 2.4 million triangles, a studded torus knot. Both use the same basin of few triangles.
 #include <cmath>
 #include <cstdint>
 
@@ -13,12 +13,12 @@ namespace {
 
 enum Mat : std::uint8_t { kFloor, kWall, kRim, kTerrace, kLawn, kGardenWall, kBall, kKnot, kMatCount };
 
-// Metres; the water is y = 0.
+// Metres. The water's plane is y = 0.
 constexpr float kHalf = 4.0f, kDepth = 1.3f, kRimTop = 0.16f, kRimOut = 4.45f, kTerraceY = 0.06f, kTerraceOut = 10.0f;
 constexpr float kLawnOut = 150.0f;
 
-// A square frame of four flat quads between two squares round the axis, at heights of their own; sides face outward, or
-// up where it is level.
+// A square frame of four flat quads between two squares around the axis, each at its own height. The quads face
+// outward, or up where the frame is level.
 void frame(PartBuilder& b, int material, float in, float y_in, float out, float y_out, float uv_metres, Vec3f color) {
   for (int side = 0; side < 4; ++side) {
     const Vec3f along = side == 0   ? Vec3f{1, 0, 0}
@@ -46,14 +46,14 @@ void basin(PartBuilder& b) {
   frame(b, kRim, kHalf, kRimTop, kRimOut, kRimTop, 0.6f, {1, 1, 1});
   frame(b, kRim, kRimOut, kRimTop, kRimOut, kTerraceY, 0.6f, {0.9f, 0.9f, 0.9f});
   frame(b, kTerrace, kRimOut, kTerraceY, kTerraceOut, kTerraceY, 2.4f, {1, 1, 1});
-  // Two garden walls behind, for the water to mirror.
+  // Two garden walls behind the basin, which the water reflects.
   const float o = kTerraceOut;
   b.box(kGardenWall, 1, {-o - 0.3f, -0.2f, -o - 0.3f}, {o, 1.9f, -o}, 3.0f);
   b.box(kGardenWall, 1, {-o - 0.3f, -0.2f, -o}, {-o, 1.9f, o}, 3.0f);
   frame(b, kLawn, kTerraceOut, kTerraceY, kLawnOut, -0.5f, 4.0f, {0.22f, 0.32f, 0.08f});
 }
 
-// A sphere of 2 around (up - 1) triangles, as near to the number as such spheres come: 208 x 97 for 39936.
+// The sphere of 2 around (up - 1) triangles whose number is closest to the budget: 208 x 97 for 39936.
 void ball(PartBuilder& b, std::uint64_t triangles) {
   int belts = 1;
   while (13ull * static_cast<std::uint64_t>(belts + 1) * static_cast<std::uint64_t>(belts + 1) <= 3 * triangles)
@@ -71,9 +71,9 @@ void ball(PartBuilder& b, std::uint64_t triangles) {
       Normals::kGiven, Poles::kBoth);
 }
 
-// The (2, 3) torus knot, standing: twice round the ring, three times through it.
+// The (2, 3) torus knot, upright: it winds twice around the ring and three times through it.
 struct KnotPoint {
-  Vec3f centre, out, side;  // of the tube: out and side span its section
+  Vec3f centre, out, side;  // of the tube; out and side span its cross-section
 };
 KnotPoint knot_point(float t) {
   constexpr float kRing = 0.88f, kWind = 0.40f, kTurn = 6.2831853f;
@@ -81,7 +81,7 @@ KnotPoint knot_point(float t) {
   const float r = kRing + kWind * c.x;
   KnotPoint k;
   k.centre = {r * a.x, 0.78f + r * a.y, kWind * c.y};
-  // Derivatives by t, and the torus' own normal, which is never along the knot.
+  // Derivatives by t, and the normal of the torus, which is never parallel to the knot.
   const float dr = -kWind * c.y * 3.0f * kTurn;
   const Vec3f along =
       normalize({dr * a.x - r * a.y * 2.0f * kTurn, dr * a.y + r * a.x * 2.0f * kTurn, kWind * c.x * 3.0f * kTurn});
@@ -91,7 +91,7 @@ KnotPoint knot_point(float t) {
   return k;
 }
 
-// Staggered rows of studs, one high in their middles.
+// The relief of staggered rows of studs; their height is 1 at the centre.
 float stud(float u, float v) {
   constexpr float kAround = 14, kAlong = 112;
   const float row = std::floor(v * kAlong), y = v * kAlong - row;
@@ -104,12 +104,12 @@ float stud(float u, float v) {
 
 void knot(PartBuilder& b, std::uint64_t triangles) {
   constexpr float kRadius = 0.25f, kLength = 13.9f, kHeight = 0.035f;
-  // Quads about square.
+  // The quads are about square.
   std::uint64_t ring = 3;
   while ((ring + 1) * (ring + 1) * 18 <= triangles) ++ring;
   const int around = static_cast<int>(ring);
   const int along = std::max(3, static_cast<int>((triangles / 2 + ring / 2) / ring));
-  // A mesh too coarse for the studs is kept smooth.
+  // A mesh that is too coarse for the studs stays smooth.
   const float height = kHeight * clamp01((static_cast<float>(along) / 112.0f - 3.0f) / 4.0f);
   float at_v = 0;
   KnotPoint k = knot_point(at_v);
@@ -169,7 +169,7 @@ Scene make_scene(const char* name, std::uint64_t triangles, void (*object)(PartB
   Mesh ground, thing;
   PartBuilder ground_builder(&ground), thing_builder(&thing);
   basin(ground_builder);
-  // The papers count the object alone. Where the basin is a good part of the number it counts too.
+  // The papers count the object alone. Where the basin is a large part of the number, it counts too.
   const std::uint64_t around = ground_builder.triangles();
   object(thing_builder, triangles >= 12 * around ? triangles : triangles - std::min(triangles, around));
   add_mesh(scene, name, std::move(thing));

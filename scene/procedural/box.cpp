@@ -1,4 +1,4 @@
-// `box`: a small basin for tests. Few triangles, every case: through the water, under it, above it, behind it.
+// The scene `box`: a small basin for tests. Its few triangles lie through the water, under it, above it and behind it.
 #include <cstdint>
 
 #include "scene/procedural/mesh_builder.h"
@@ -42,7 +42,7 @@ void balls(PartBuilder& b, int n) {
   }
 }
 
-// A slanting board, seen from both sides. Its grid is cut finely enough to take what the other parts leave over.
+// A slanting board with two sides. Its grid uses the triangles that the other parts leave over.
 void board(PartBuilder& b, int quads) {
   int rows = 1;
   while ((rows + 1) * (rows + 1) * 2 <= quads) ++rows;
@@ -57,7 +57,7 @@ struct Part {
 };
 constexpr Part kParts[] = {{"basin", basin, 30}, {"boxes", boxes, 30}, {"balls", balls, 35}, {"board", board, 100}};
 
-// The finest level within the budget.
+// Returns the finest level within the budget.
 int finest_level(PartFn add, std::uint64_t budget) {
   int level = 1;
   for (int step = 1 << 23; step > 0; step /= 2) {

@@ -1,5 +1,5 @@
-// `furnace`: everything is white, the walls, the sky and what stands in the water, which absorbs nothing. Reflection
-// and refraction then only share out white: every pixel of every method is white, or light was lost or made.
+// The scene `furnace`: the walls, the sky and all objects are white, and the water absorbs nothing. Every pixel of
+// every method must then be white; otherwise reflection and refraction do not conserve light.
 #include "scene/procedural/part_plan.h"
 #include "scene/procedural/scenes.h"
 #include "scene/procedural/shapes.h"
@@ -10,7 +10,7 @@ namespace {
 constexpr int kWhite = 0;
 constexpr float kHalf = 2.0f, kDepth = 1.5f, kTop = 1.0f;
 
-// One wall has a window and there is no ceiling: the sky is seen too.
+// One wall has a window and there is no ceiling, so that rays reach the sky.
 void room(PartBuilder& b, int n) {
   const float x = kHalf, wall = kDepth + kTop;
   b.quad(kWhite, n, n, {-x, -kDepth, x}, {2 * x, 0, 0}, {0, 0, -2 * x}, 1);
@@ -21,14 +21,14 @@ void room(PartBuilder& b, int n) {
   b.quad(kWhite, n, n, {0, -kDepth, -x}, {x, 0, 0}, {0, kDepth - 0.4f, 0}, 1);
 }
 
-// Under the water, through it, and over it.
+// Objects under the water, through its surface, and above it.
 void blocks(PartBuilder& b, int n) {
   b.box(kWhite, n, {-1.2f, -1.5f, -1.0f}, {-0.6f, -0.7f, -0.4f}, 1);
   b.box(kWhite, n, {0.5f, -1.5f, -0.9f}, {0.9f, 0.5f, -0.5f}, 1);
   b.box(kWhite, n, {-0.5f, 0.3f, 0.3f}, {0.1f, 0.6f, 0.7f}, 1);
 }
 
-// The level is about its triangles.
+// The level is about the number of triangles.
 void ball(PartBuilder& b, int level) {
   constexpr Vec3f kCentre{0.6f, 0.05f, 0.6f};
   int belts = 1;

@@ -1,8 +1,8 @@
-// Parametric meshes for procedural scenes: every shape is made of surfaces P(u, v) over the unit square.
+// Parametric meshes for procedural scenes: every shape consists of surfaces P(u, v) over the unit square.
 //
-// A part is a function of a PartBuilder and a level of detail. Without a mesh to fill it only adds up triangles, so a
-// scene can be fitted to a triangle count without building it. All arithmetic is + - * / sqrt and core/math.h: the
-// meshes are the same bytes everywhere.
+// A part is a function of a PartBuilder and a level of detail. A builder without a mesh only counts triangles, so that
+// a scene is fitted to a triangle count before it is built. All arithmetic is + - * / sqrt and core/math.h: the meshes
+// are the same bytes on every machine.
 #pragma once
 
 #include <algorithm>
@@ -18,19 +18,19 @@ namespace shoal {
 
 struct SurfacePoint {
   Vec3f position;
-  Vec3f normal;  // unit; ignored where the surface finds its own
+  Vec3f normal;  // unit; ignored where Normals::kSmooth is used
   Vec2f uv;
   Vec3f color{1, 1, 1};
 };
 
-// Which edges of a surface shrink to a point: there a quad is one triangle.
+// The edges of a surface that shrink to a point: a quad there is one triangle.
 enum class Poles { kOpen, kV0, kV1, kBoth };
 
-// kGiven: as the function says. kSmooth: from the function's differences.
+// kGiven: the function gives the normals. kSmooth: they are computed from differences of the function's positions.
 enum class Normals { kGiven, kSmooth };
 
 inline float clamp01(float x) { return std::min(1.0f, std::max(0.0f, x)); }
-// Exact at both ends, so that neighbours meet.
+// Linear interpolation, exact at both ends, so that neighbouring surfaces meet.
 inline float mix(float a, float b, float t) { return a * (1.0f - t) + b * t; }
 inline Vec3f mix(Vec3f a, Vec3f b, float t) { return a * (1.0f - t) + b * t; }
 inline float smooth_step(float lo, float hi, float x) {
@@ -43,7 +43,7 @@ inline Vec3f normalize(Vec3f v) {
   return l > 0 ? v / l : Vec3f{0, 1, 0};
 }
 
-// Cosine and sine of a share of a full turn. A whole turn is exactly none, so that seams close.
+// Cosine and sine of a share of a full turn. A whole turn equals none exactly, so that seams close.
 inline Vec2f turn(float share) {
   const float angle = (share - std::floor(share)) * 6.2831853f;
   return {det_cos(angle), det_sin(angle)};
@@ -51,13 +51,13 @@ inline Vec2f turn(float share) {
 
 class PartBuilder {
  public:
-  //   mesh  takes the surfaces; null to count only
+  //   mesh  receives the surfaces; null: the builder only counts triangles
   explicit PartBuilder(Mesh* mesh) : mesh_(mesh) {}
   bool counting() const { return mesh_ == nullptr; }
   std::uint64_t triangles() const { return triangles_; }
 
-  // Adds P(u, v), u and v in [0, 1], as nu x nv quads. The front is where u to v turns counter-clockwise: the side of
-  // dP/du x dP/dv. Quads go in blocks of 7 x 7, as many as 64 vertices hold.
+  // Adds P(u, v), u and v in [0, 1], as nu x nv quads. The front is the side of dP/du x dP/dv. Quads are ordered in
+  // blocks of 7 x 7, which have 64 vertices.
   //   at  SurfacePoint(float u, float v)
   template <class Fn>
   void surface(int material, int nu, int nv, Fn&& at, Normals normals = Normals::kGiven, Poles poles = Poles::kOpen) {
@@ -96,7 +96,8 @@ class PartBuilder {
     }
   }
 
-  // A flat parallelogram: corner + u * along_u + v * along_v, uv in metres divided by `uv_metres`.
+  // Adds a flat parallelogram: corner + u * along_u + v * along_v; texture coordinates are metres divided by
+  // `uv_metres`.
   void quad(int material, int nu, int nv, Vec3f corner, Vec3f along_u, Vec3f along_v, float uv_metres,
             Vec3f color = {1, 1, 1}) {
     const Vec3f n = normalize(cross(along_u, along_v));
@@ -106,7 +107,7 @@ class PartBuilder {
     });
   }
 
-  // An axis-aligned box with outward faces, n x n quads a face.
+  // Adds an axis-aligned box with outward faces of n x n quads.
   void box(int material, int n, Vec3f lo, Vec3f hi, float uv_metres, Vec3f color = {1, 1, 1}) {
     const Vec3f d = hi - lo, x{d.x, 0, 0}, y{0, d.y, 0}, z{0, 0, d.z};
     quad(material, n, n, lo + z, x, y, uv_metres, color);
@@ -117,8 +118,9 @@ class PartBuilder {
     quad(material, n, n, lo, x, z, uv_metres, color);
   }
 
-  // A solid of revolution about the vertical through `base`: profile(t) is (radius, height), bottom to top; its ends on
-  // the axis where the poles say so.
+  // Adds a solid of revolution about the vertical through `base`.
+  //   profile  Vec2f(float t): (radius, height) from bottom to top
+  //   poles    the ends that lie on the axis
   template <class Fn>
   void lathe(int material, int around, int up, Vec3f base, Fn&& profile, Poles poles, Vec2f uv_scale,
              Vec3f color = {1, 1, 1}) {
@@ -132,8 +134,9 @@ class PartBuilder {
         Normals::kSmooth, poles);
   }
 
-  // A tube of a given radius along path(t), closed at its ends by flat caps unless the path is a loop.
-  //   side  a direction that is never along the path
+  // Adds a tube along a path. Flat caps close its ends unless the path is a loop.
+  //   path  Vec3f(float t)
+  //   side  a direction that is never parallel to the path
   template <class Fn>
   void tube(int material, int around, int along, float radius, Fn&& path, Vec3f side, bool loop, Vec2f uv_scale,
             Vec3f color = {1, 1, 1}) {
@@ -158,7 +161,7 @@ class PartBuilder {
           [&](float u, float v) {
             Vec3f centre, out, tangent;
             ring(end, u, centre, out, tangent);
-            // The start's cap shrinks towards v = 0, the end's towards v = 1: both face outward.
+            // The cap of the start shrinks towards v = 0, that of the end towards v = 1, so that both face outward.
             const float r = end == 0.0f ? v : 1.0f - v;
             return SurfacePoint{centre + out * (radius * r), end == 0.0f ? -tangent : tangent, {u, v}, color};
           },
@@ -174,7 +177,7 @@ class PartBuilder {
     p.colors.push_back({s.color.x, s.color.y, s.color.z, 1.0f});
   }
 
-  // Exactly, for a surface that is most of its mesh: large scenes then hold no spare memory.
+  // Reserves the exact size for a surface that is most of its mesh, so that large scenes hold no unused memory.
   static void reserve(MeshPrimitive& p, std::size_t nu, std::size_t nv) {
     if (nu * nv < p.positions.size()) return;
     const std::size_t vertices = p.positions.size() + nu * nv;
@@ -185,7 +188,7 @@ class PartBuilder {
     p.indices.reserve(p.indices.size() + 6 * nu * nv);
   }
 
-  // One a material; made on first use.
+  // Returns the primitive of a material, which its first use adds.
   MeshPrimitive& primitive(int material) {
     for (MeshPrimitive& p : mesh_->primitives) {
       if (p.material == material) return p;
@@ -195,7 +198,8 @@ class PartBuilder {
     return mesh_->primitives.back();
   }
 
-  // Central differences, stepping inward at the square's edges; at a pole, where dP/du vanishes, a little beside it.
+  // The normal from central differences, one-sided at the square's edges in v. At a pole, where dP/du vanishes, it is
+  // taken beside it.
   template <class Fn>
   static Vec3f smooth_normal(Fn&& at, float u, float v) {
     constexpr float kStep = 1.0f / 1024.0f;

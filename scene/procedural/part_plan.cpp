@@ -12,7 +12,7 @@ std::uint64_t count(PartFn add, int level) {
   return b.triangles();
 }
 
-// The finest level that costs at most `budget`; 1 where none does.
+// Returns the finest level of at most `budget` triangles; 1 where there is none.
 int finest_level(PartFn add, std::uint64_t budget) {
   int lo = 1, hi = 2;
   while (hi < (1 << 26) && count(add, hi) <= budget) {
@@ -27,7 +27,7 @@ int finest_level(PartFn add, std::uint64_t budget) {
 }
 
 struct Plan {
-  std::vector<int> levels;  // one a part; 0: left out
+  std::vector<int> levels;  // one a part; 0: the part is left out
   int filler = 1;
 };
 
@@ -40,14 +40,14 @@ Plan make_plan(const std::vector<Part>& parts, const Part& filler, std::uint64_t
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Part& part = parts[i];
     const std::uint64_t cost = count(part.add, 1) * part.places.size();
-    // A part comes when all so far can be had and half of the triangles are still free to refine them.
+    // A part is included where the parts so far need at most half of the triangles, so that half remain to refine them.
     if (!part.always && 2 * (spent_at_least + cost) > left) continue;
     spent_at_least += cost;
     plan.levels[i] = 1;
     shares += part.share;
   }
-  // Every part spends its share of what is left, and passes on what it cannot use. The coarsest levels of the parts
-  // still to come are set aside.
+  // Each part receives its share of the remaining triangles and leaves what it cannot use. The coarsest levels of later
+  // parts stay reserved.
   std::uint64_t aside = spent_at_least;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (plan.levels[i] == 0) continue;

@@ -1,4 +1,4 @@
-// A scene as parts with a level of detail each: which parts come, and how finely, for a number of triangles.
+// Fits a scene to a number of triangles: it selects parts and the level of detail of each.
 #pragma once
 
 #include <cstdint>
@@ -10,26 +10,26 @@
 
 namespace shoal {
 
-// Adds the part at a level, 1 the coarsest; more levels never mean fewer triangles.
+// Adds a part to a builder at a level of detail, 1 the coarsest; a higher level never has fewer triangles.
 using PartFn = void (*)(PartBuilder& b, int level);
 
 struct Part {
   const char* name;
   PartFn add;
-  std::vector<Mat4> places;      // a copy stands at each
-  double share;                  // of what is to be handed out, for all copies together
-  bool always;                   // else only when there are triangles to spare
-  const char* plural = nullptr;  // of the copies' parent node, where it is not the name and an s
+  std::vector<Mat4> places;      // one copy at each
+  double share;                  // of the triangles, for all copies together
+  bool always;                   // false: included only where enough triangles remain
+  const char* plural = nullptr;  // name of the copies' parent node where it is not the name and an s
 };
 
-// Upright copies.
+// Returns the matrices of upright copies at some points.
 std::vector<Mat4> places_at(std::initializer_list<Vec3f> at);
 inline std::vector<Mat4> placed_once() { return {kIdentity4}; }
 
-// Adds a mesh and a node a part, or a node a copy below one for them all, so that the triangles add up to about
-// `triangles`.
-//   parts   in order of importance: as soon as one that is not `always` cannot be had it is left out
-//   filler  always there, and last: takes what the others leave over. It has one place
+// Adds a mesh and a node for each part, or, for several copies, a node for each below a common parent. The triangles
+// add up to about `triangles`.
+//   parts   in order of importance; one that is not `always` is left out where the triangles do not suffice
+//   filler  always included, with one copy; it uses the triangles that the other parts leave over
 void add_parts(Scene& scene, const std::vector<Part>& parts, const Part& filler, std::uint64_t triangles);
 
 }  // namespace shoal

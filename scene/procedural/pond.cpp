@@ -1,6 +1,6 @@
-// `pond`: the pond of Steel's demonstration of refraction (2024), made by formulas: a bowl in a meadow, 128 pots of two
-// colours in it, and arrows that missed them. This file has the plan: which parts, where, materials, cameras. The parts
-// are in pond_*.cpp.
+// The scene `pond`: a procedural version of the pond in Steel's demonstration of refraction (2024), a bowl in a meadow
+// with 128 pots of two colours and arrows. This file selects and places the parts, materials and cameras; pond_*.cpp
+// define the parts.
 #include <cmath>
 
 #include "scene/procedural/pond_parts.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kPots = 128;
 
-// Evenly over the bed, by the golden angle, and each a little aside; every seventh has fallen over.
+// Distributes pots over the bed by the golden angle with small offsets. Every seventh has fallen over.
 std::vector<Mat4> pots_at(int colour) {
   std::vector<Mat4> places;
   for (int i = colour; i < kPots; i += 2) {
@@ -42,12 +42,12 @@ std::vector<Mat4> arrows_at() {
   return places;
 }
 
-// Rocks along the shore, and a few in the water.
+// Places rocks along the shore and a few in the water.
 std::vector<Mat4> rocks_at(int count, std::uint32_t seed, float least, float most) {
   std::vector<Mat4> places;
   for (int i = 0; i < count; ++i) {
     const auto random = [i, seed](int which) { return random_unit(i, which, seed); };
-    // In groups: three at about one place.
+    // Rocks are in groups of three.
     const Vec2f d = turn(random_unit(i / 3, 0, seed + 5) + 0.035f * (random(0) - 0.5f));
     const float r = shore_m(d) * mix(0.80f, 1.13f, random(1)), x = d.x * r, z = d.y * r,
                 size = mix(least, most, random(2) * random(2));
@@ -60,7 +60,7 @@ std::vector<Mat4> reeds_at() {
   std::vector<Mat4> places;
   for (int i = 0; i < 34; ++i) {
     const auto random = [i](int which) { return random_unit(i, which, 501); };
-    // Beds of them: on the far side, and left and right of it.
+    // Reeds grow in beds on the far side and to its left and right.
     constexpr float kBeds[5] = {0.57f, 0.66f, 0.80f, 0.93f, 0.40f};
     const Vec2f d = turn(kBeds[i % 5] + 0.05f * (random(0) - 0.5f));
     const float r = shore_m(d) * mix(0.88f, 1.02f, random(1)), x = d.x * r, z = d.y * r;
@@ -69,7 +69,7 @@ std::vector<Mat4> reeds_at() {
   return places;
 }
 
-// In a ring about the pond, all but towards the cameras.
+// Places plants in a ring around the pond, except towards the cameras.
 std::vector<Mat4> ring_at(int count, std::uint32_t seed, float near, float far, float least, float most) {
   std::vector<Mat4> places;
   for (int i = 0; i < count; ++i) {

@@ -1,5 +1,5 @@
-// The pieces of the `pond` scene. Each part adds itself to a builder at a level of detail, 1 the coarsest; more levels
-// never mean fewer triangles.
+// The parts of the scene `pond`. Each function adds a part to a builder at a level of detail, 1 the coarsest; a higher
+// level never has fewer triangles.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,10 @@
 
 namespace shoal::pond {
 
-// Layout, metres. The water is y = 0; the pond's middle is the origin.
-inline constexpr float kLongX = 11.0f, kLongZ = 8.0f;  // half axes of the ellipse that its shore wanders about
-inline constexpr float kWaterHalfX = 14.0f, kWaterHalfZ = 10.5f;  // the plane's half size: its edge is under the banks
+// Layout in metres. The water's plane is y = 0; the centre of the pond is the origin.
+inline constexpr float kLongX = 11.0f, kLongZ = 8.0f;  // half axes of the ellipse around which the shore varies
+// Half size of the water's plane, whose edge lies under the banks.
+inline constexpr float kWaterHalfX = 14.0f, kWaterHalfZ = 10.5f;
 inline constexpr float kDeep = 2.1f, kLowest = -2.6f;
 
 enum Mat : std::uint8_t {
@@ -34,11 +35,11 @@ enum Mat : std::uint8_t {
   kMatCount
 };
 
-// Distance of the shore from the middle, towards a unit direction.
+// Returns the distance of the shore from the centre in a unit direction.
 float shore_m(Vec2f direction);
-// Height of the ground at a place: the bed below 0, then the banks, the meadow and the hills.
+// Returns the height of the ground at a point: the bed below 0, then the banks, the meadow and the hills.
 float ground_y(float x, float z);
-// Of a place: its distance from the middle over the shore's; 1 on the shore.
+// Returns the distance of a point from the centre divided by that of the shore; 1 on the shore.
 float shore_share(float x, float z);
 
 void terrain(PartBuilder& b, int level);  // level is about the quads

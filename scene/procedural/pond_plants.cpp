@@ -1,4 +1,4 @@
-// What grows in and round `pond`: reeds, grass, bushes and trees.
+// Plants of the scene `pond`: reeds, grass, bushes and trees.
 #include <cmath>
 
 #include "scene/procedural/pond_parts.h"
@@ -37,7 +37,7 @@ void grass(PartBuilder& b, int level) {
       continue;
     }
     const auto random = [i](int which) { return random_unit(i, which, 461); };
-    // Thick at the verge, thin farther out.
+    // Grass is dense at the verge and sparse farther out.
     const Vec2f d = turn(random(0));
     const float out = random(1) * random(1), r = shore_m(d) * (1.10f + 0.9f * out);
     const float x = d.x * r, z = d.y * r, size = mix(0.55f, 1.0f, random(2));
@@ -73,7 +73,7 @@ void tree(PartBuilder& b, int level) {
 
 void pine(PartBuilder& b, int level) {
   constexpr float kHeight = 8.0f, kTiers = 5.0f;
-  // What its few faces could not follow is left out of a coarse one.
+  // A coarse tree leaves out detail that its faces cannot resolve.
   const float fine = std::min(1.0f, static_cast<float>(level) / 4.0f), depth = 0.4f * fine, droop = 0.34f * fine;
   const auto stem = [](float t) { return Vec3f{0, 1.6f * t - 0.3f, 0}; };
   b.tube(kBark, level + 3, 1, 0.17f, stem, {1, 0, 0}, false, {1, 2});

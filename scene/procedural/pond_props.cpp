@@ -1,4 +1,4 @@
-// What lies and stands about in `pond` and does not grow: pots, arrows, rocks, the jetty.
+// Objects of the scene `pond`: pots, arrows, rocks and the jetty.
 #include <cmath>
 #include <iterator>
 

@@ -1,4 +1,5 @@
-// The ground of `pond`: a bowl, its shore, the banks, the meadow and the hills, one sheet in rings round the middle.
+// The ground of the scene `pond`: a bowl, its shore, the banks, the meadow and the hills as one sheet in rings around
+// the centre.
 #include <cmath>
 
 #include "scene/procedural/pond_parts.h"
@@ -7,7 +8,7 @@
 namespace shoal::pond {
 namespace {
 
-// Slope at the shore, and how high the banks come to lie over the water.
+// The slope at the shore, and the height of the banks over the water.
 constexpr float kBeach = 0.24f, kBank_m = 0.62f;
 constexpr float kFar = 420.0f, kVergeWidth = 0.07f;
 
@@ -16,7 +17,7 @@ Vec2f direction_of(float x, float z) {
   return r > 1e-6f ? Vec2f{x / r, z / r} : Vec2f{1, 0};
 }
 
-// Where grass begins, as a share of the shore's distance.
+// The start of the grass as a share of the shore's distance.
 float verge_share(Vec2f d) { return 1.065f + 0.09f * fractal_noise(d.x * 5.0f + 31.0f, d.y * 5.0f + 31.0f, 0, 3, 403); }
 
 Vec3f bed_tint(float x, float z, float y) {

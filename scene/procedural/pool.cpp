@@ -1,5 +1,5 @@
-// `pool`: Liu et al.'s swimming pool (2020, figures 10 to 13), as a villa's garden. This file has the plan: which
-// parts, materials, cameras. The parts are in pool_*.cpp.
+// The scene `pool`: a swimming pool after Liu et al. (2020, figures 10 to 13) in a villa's garden. This file selects
+// the parts, materials and cameras; pool_*.cpp define the parts.
 #include "scene/procedural/pool_parts.h"
 #include "scene/procedural/scenes.h"
 #include "scene/procedural/textures.h"
@@ -8,7 +8,7 @@ namespace shoal {
 namespace pool {
 namespace {
 
-// In order of importance: the first are always there, the others as soon as there are triangles to spare.
+// The parts in order of importance. The first are always included, the others where enough triangles remain.
 std::vector<Part> make_parts() {
   const std::vector<Mat4> once = placed_once();
   const std::vector<Mat4> columns = places_at({{-9, kDeckY, -6.1f},
@@ -137,7 +137,7 @@ Scene make_pool(std::uint64_t triangles) {
   Scene scene;
   scene.name = "pool";
   scene.materials = pool::make_materials();
-  // The hills are last and take what the others leave over.
+  // The hills come last and use the triangles that the others leave over.
   add_parts(scene, pool::make_parts(), {"backdrop", pool::hills, placed_once(), 10, true}, triangles);
 
   WaterSpec water;

@@ -1,4 +1,4 @@
-// The basin of `pool`: floor with lanes, walls with their frieze, steps, coping, and the deck around it.
+// The basin of the scene `pool`: floor with lanes, walls with a frieze, steps, coping, and the deck around it.
 #include <array>
 #include <cmath>
 
@@ -7,7 +7,7 @@
 namespace shoal::pool {
 namespace {
 
-// A side of the basin: its wall's direction (seen from the water, to the right) and the way out.
+// A side of the basin: the direction along its wall (to the right, seen from the water) and the outward direction.
 struct Side {
   Vec3f along, out;
   float half_along, half_out;
@@ -20,8 +20,8 @@ int segments(float from, float to, float step) {
   return std::max(1, static_cast<int>(std::floor((to - from) / step + 0.5f)));
 }
 
-// Cells between lines, each cut into steps of about `step`: neighbours share their border's vertices, so no crack
-// opens.
+// Divides the cells between lines into steps of about `step`. Neighbouring cells share the vertices of their border, so
+// that no crack opens.
 //   cell  void(float x0, float x1, int nx, float y0, float y1, int ny, size_t i, size_t j)
 template <std::size_t kX, std::size_t kY, class Fn>
 void for_each_cell(const std::array<float, kX>& xs, const std::array<float, kY>& ys, float step, Fn&& cell) {
@@ -33,10 +33,10 @@ void for_each_cell(const std::array<float, kX>& xs, const std::array<float, kY>&
   }
 }
 
-// To the nearest 1/4096 m: floor and walls find the same corner whichever end they count from.
+// Rounds to 1/4096 m, so that floor and walls have the same corners from whichever end they count.
 float snap(float x) { return std::floor(x * 4096.0f + 0.5f) / 4096.0f; }
 
-// Light that reaches a crease is less: distance to it in metres, reach of the darkening.
+// Darkening near a crease, by the distance to it and its range in metres.
 float crease(float distance, float reach, float depth) {
   const float d = std::max(0.0f, distance) / reach;
   return 1.0f - depth / (1.0f + 4.0f * d * d + 2.0f * d);
@@ -50,7 +50,7 @@ Vec3f basin_shade(float x, float y, float z) {
 
 Vec3f floor_shade(float x, float z) {
   Vec3f c = basin_shade(x, floor_y(x), z);
-  // What lies on the floor, and the foot of the steps.
+  // Objects on the floor, and the foot of the steps.
   const float spots[3][3] = {{0.85f, 0.95f, 0.22f}, {-0.35f, -1.0f, 0.42f}, {2.6f, -0.55f, 0.2f}};
   for (const auto& s : spots) {
     const float dx = x - s[0], dz = z - s[1];
@@ -191,7 +191,7 @@ void coping(PartBuilder& b, int level) {
   }
 }
 
-// Soft shade on the deck where something stands: centre, half size, softness beyond it, depth.
+// A soft shade on the deck below an object: centre, half size, width of the soft edge, strength.
 struct Blob {
   float x, z, half_x, half_z, soft, depth;
 };

@@ -1,4 +1,4 @@
-// What grows round `pool`: pots, hedges, cypresses, and the hills behind.
+// Plants of the scene `pool`: pots, hedges, cypresses, and the hills behind.
 #include <cmath>
 
 #include "scene/procedural/pool_parts.h"

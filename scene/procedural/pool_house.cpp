@@ -1,4 +1,4 @@
-// The house behind `pool`: columns, arcade, the shaded gallery with its doors, and the roof.
+// The house of the scene `pool`: columns, arcade, the shaded gallery with its doors, and the roof.
 #include <cmath>
 
 #include "scene/procedural/pool_parts.h"

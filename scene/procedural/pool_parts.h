@@ -1,5 +1,5 @@
-// The pieces of the `pool` scene. Each part adds itself to a builder at a level of detail, 1 the coarsest; more levels
-// never mean fewer triangles.
+// The parts of the scene `pool`. Each function adds a part to a builder at a level of detail, 1 the coarsest; a higher
+// level never has fewer triangles.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace shoal::pool {
 
-// Layout, metres. The water is y = 0; its basin is centred on the origin, shallow at -x.
+// Layout in metres. The water's plane is y = 0; the basin is centred on the origin and shallow at -x.
 inline constexpr float kHalfX = 5.0f, kHalfZ = 2.5f;
 inline constexpr float kShallow = 1.2f, kDeep = 2.2f;
 inline constexpr float kCopingTop = 0.12f, kDeckY = 0.10f, kBandBottom = -0.15f;

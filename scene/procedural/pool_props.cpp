@@ -1,4 +1,4 @@
-// What floats, sinks and stands about in `pool`: balls, rings, ladder, loungers, parasols.
+// Objects of the scene `pool`: balls, rings, ladder, loungers and parasols.
 #include <cmath>
 
 #include "scene/procedural/pool_parts.h"

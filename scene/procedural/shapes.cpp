@@ -26,7 +26,7 @@ Vec3f leaf_shade(float bump, float upward) {
 }
 
 void leafy_ball(PartBuilder& b, int material, int level, Vec3f centre, float radius) {
-  // A coarse ball is kept smooth: its few faces could not follow the leaves.
+  // A coarse ball is smooth, because its faces are too large for the leaves.
   const float depth = 0.36f * std::min(1.0f, static_cast<float>(level) / 6.0f);
   b.surface(
       material, 2 * level + 2, level + 2,
@@ -45,7 +45,7 @@ void rock(PartBuilder& b, int material, int level, Vec3f centre, Vec3f half, flo
           Vec3f color) {
   const float depth = std::min(1.0f, static_cast<float>(level) / 6.0f);
   const float size = (half.x + half.y + half.z) * (1.0f / 3.0f), around = 6.2831853f * size / uv_metres;
-  // Whole repeats, so that the seam closes.
+  // The number of repeats is whole, so that the seam closes.
   const float repeats = std::max(1.0f, std::floor(around + 0.5f));
   b.surface(
       material, 2 * level + 3, level + 2,

@@ -1,5 +1,5 @@
-// `tank`: an aquarium on a table, seen through its side. The glass is left out: the front is a plane of water that
-// stands upright, and the top another that lies. Within are gravel, stones, plants, an arch and fish.
+// The scene `tank`: an aquarium on a table, seen through its side. It has no glass: the front is a vertical plane of
+// water, the top a horizontal one. It contains gravel, stones, plants, an arch and fish.
 #include <cmath>
 #include <cstdint>
 
@@ -31,10 +31,10 @@ enum Mat : std::uint8_t {
   kMatCount
 };
 
-// Metres. The tank's inside; its table's top is y = 0, the water's top y = kWater.
+// The inside of the tank in metres. The top of the table is y = 0, the top of the water y = kWater.
 constexpr float kHalfX = 0.90f, kHalfZ = 0.40f, kFloor = 0.06f, kWater = 0.78f, kTop = 0.90f, kPost = 0.035f;
 
-// Gravel banks up to the back and the sides.
+// The height of the gravel, which rises towards the back and the sides.
 float gravel_y(float x, float z) {
   const float back = smooth_step(0.35f, -0.45f, z), side = smooth_step(0.3f, 0.9f, std::fabs(x));
   return kFloor + 0.03f + 0.09f * back + 0.04f * side * back +
@@ -151,7 +151,7 @@ void arch(PartBuilder& b, int level) {
   });
 }
 
-// Ribbons that sway from one root; tall ones reach the surface.
+// Curved ribbons from one root; tall ones reach the surface.
 void weeds(PartBuilder& b, int level) {
   struct Clump {
     float x, z, height;
@@ -169,7 +169,7 @@ void weeds(PartBuilder& b, int level) {
       const Vec3f foot{k.x + 0.05f * (random(1) - 0.5f), gravel_y(k.x, k.z) - 0.01f, k.z + 0.05f * (random(2) - 0.5f)};
       const float height = k.height * (0.6f + 0.5f * random(3)), lean = (low ? 0.4f : 0.22f) * height;
       Vec3f over{c.x * lean, 0, c.y * lean * 0.6f};
-      // Nothing grows through the glass.
+      // Plants stay inside the tank.
       over.z = std::max(-0.36f - foot.z, std::min(0.34f - foot.z, over.z));
       over.x = std::max(-0.86f - foot.x, std::min(0.86f - foot.x, over.x));
       const float l = 0.7f + 0.3f * random(4);
@@ -178,7 +178,7 @@ void weeds(PartBuilder& b, int level) {
   }
 }
 
-// A fish one long along x, its head at +x. Body, tail, fins and eyes.
+// A fish of length 1 along x with its head at +x: body, tail, fins and eyes.
 template <int kSkin>
 void fish(PartBuilder& b, int level) {
   constexpr bool kRound = kSkin == kClown;
@@ -197,7 +197,7 @@ void fish(PartBuilder& b, int level) {
       },
       Normals::kSmooth, Poles::kBoth);
   const int tail = kRound ? int{kFin} : int{kTangTail};
-  // Fins, thin, seen from both sides: v from their root outward, longest in their middles.
+  // Thin fins with two sides: v runs from their root outward; they are longest in the middle.
   const auto fin = [&](int material, Vec3f root0, Vec3f root1, Vec3f tip0, Vec3f tip1) {
     const Vec3f n = normalize(cross(root1 - root0, tip0 - root0));
     b.surface(material, std::max(1, level), std::max(1, level / 2), [&](float u, float v) {
@@ -276,7 +276,8 @@ Materials make_materials() {
   return m;
 }
 
-// A body of water whose plane faces along `normal`, with local z down it where it stands.
+// Adds a body of water.
+//   place  its local y is the normal of the plane; local z points down where the plane is vertical
 void add_tank_water(Scene& scene, const char* name, const Mat4& place, float size_z, float depth) {
   WaterSpec water;
   water.has_size = water.has_depth = true;
@@ -301,12 +302,12 @@ Scene make_tank(std::uint64_t triangles) {
   surface.kind = SurfaceKind::kGradientWaves;
   surface.slope = 0.02f;
   surface.wavelength_m = 0.35f;
-  // Upright: local y is the world's z, local z points down.
+  // The vertical plane: local y is the world's z, local z points down.
   const Mat4 front = from_rows({1, 0, 0, 0}, {0, 0, -1, 0.5f * (kFloor + kWater)}, {0, 1, 0, kHalfZ});
   add_tank_water(scene, "front", front, kWater - kFloor, 2 * kHalfZ);
   add_sun(scene, {-0.40f, 0.80f, 0.62f}, {1.0f, 0.95f, 0.86f}, 2.4f);
-  // The first four look down through the front: none of their rays meets the top from below. `low` looks up at it, and
-  // sees the tank mirrored there.
+  // The first four cameras look down through the front, so that none of their rays reaches the top from below. `low`
+  // looks up at the top and shows the tank reflected there.
   add_camera(scene, "front", {0.12f, 0.86f, 2.20f}, {0.0f, 0.40f, 0.0f}, 0.62f);
   add_camera(scene, "oblique", {1.45f, 1.18f, 1.95f}, {0.04f, 0.38f, 0.02f}, 0.62f);
   add_camera(scene, "above", {-0.55f, 1.95f, 1.15f}, {0.0f, 0.42f, 0.0f}, 0.68f);

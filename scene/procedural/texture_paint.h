@@ -1,4 +1,4 @@
-// What textures are painted with.
+// Functions that paint textures.
 #pragma once
 
 #include <algorithm>
@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "shading/textures/texture.h"
 #include "scene/procedural/textures.h"
+#include "shading/textures/texture.h"
 
 namespace shoal::paint {
 
-// Colours here are sRGB, 0 to 1: textures are painted as one sees them.
+// Colours in this file are sRGB, 0 to 1.
 inline float clamp_unit(float x) { return std::min(1.0f, std::max(0.0f, x)); }
 inline float lerp(float a, float b, float t) { return a + (b - a) * t; }
 inline Vec3f lerp(Vec3f a, Vec3f b, float t) { return a + (b - a) * t; }
@@ -21,7 +21,7 @@ inline float ramp(float lo, float hi, float x) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-// Paints every texel with paint(u, v), u and v in [0, 1).
+// Calls paint(u, v), u and v in [0, 1), for every texel.
 template <class Fn>
 Texture paint_texture(int width, int height, Fn&& paint) {
   std::vector<std::uint8_t> texels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
@@ -44,7 +44,7 @@ inline float unit_hash(int x, int y, std::uint32_t seed) {
   return static_cast<float>(hash_lattice(x, y, seed) >> 8) * (1.0f / 16777216.0f);
 }
 
-// A cell of a lattice of tiles: which one, and how far inside its nearest edge (in cells, 0 to 0.5).
+// A cell of a lattice of tiles, and the distance to its nearest edge (in cells, 0 to 0.5).
 struct Tile {
   int column, row;
   float x, y, edge;

@@ -10,7 +10,7 @@ namespace shoal {
 using namespace paint;
 namespace {
 
-// Glazed tiles: each its own shade between three colours, darker towards its rim, in pale grout.
+// Glazed tiles in pale grout. Each has its own shade between three colours and is darker towards its rim.
 Texture make_mosaic(int size, const std::array<Vec3f, 3>& shades, Vec3f grout, std::uint32_t seed) {
   constexpr int kTiles = 16;
   return paint_texture(size, size, [&](float u, float v) {
@@ -144,7 +144,7 @@ Texture make_roof_tiles() {
     const float tone = unit_hash(t.column, t.row, 71), moss = fractal_noise(u * 12.0f, v * 12.0f, 12, 4, 72);
     Vec3f c = lerp(Vec3f{0.66f, 0.33f, 0.20f}, Vec3f{0.84f, 0.52f, 0.33f}, tone);
     c = lerp(c, Vec3f{0.58f, 0.42f, 0.30f}, 0.5f * ramp(0.5f, 0.75f, moss)) * (0.92f + 0.16f * moss);
-    // Each course throws a shade on the next, and rows meet in a valley.
+    // Each course shades the next, and rows meet in a valley.
     c = c * lerp(0.55f, 1.0f, ramp(0.0f, 0.12f, t.y));
     return c * lerp(0.62f, 1.0f, ramp(0.0f, 0.16f, std::min(t.x, 1.0f - t.x)));
   });

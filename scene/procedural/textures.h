@@ -10,13 +10,13 @@ namespace shoal {
 // Integer hash of a lattice point (two rounds of xor-shift and multiply, constants of Wellons' lowbias32).
 std::uint32_t hash_lattice(std::int32_t x, std::int32_t y, std::uint32_t seed);
 
-// Value noise in [0, 1], smooth; repeats every `period` lattice cells (0: never).
+// Smooth value noise in [0, 1] that repeats every `period` lattice cells (0: never).
 float value_noise(float x, float y, std::int32_t period, std::uint32_t seed);
 
-// Octaves of it, each twice as fine and half as strong; in [0, 1].
+// A sum of octaves of value noise, each of twice the frequency and half the amplitude; in [0, 1].
 float fractal_noise(float x, float y, std::int32_t period, int octaves, std::uint32_t seed);
 
-// All of these repeat in both directions. A texture's width on the surface is in the comment.
+// All of these repeat in both directions. The comments give the width of a texture on the surface.
 Texture make_pool_tiles();       // 1.6 m: 16 x 16 turquoise mosaic tiles
 Texture make_lane_tiles();       // 1.6 m: the same tiles in navy
 Texture make_waterline_tiles();  // 0.5 m wide, 0.25 m high: a frieze of small tiles

@@ -19,8 +19,8 @@ Texture make_checker() {
 
 namespace {
 
-// Pebbles of one lattice: the nearest of the cells around, each with a centre, a size and a tone of its own. Returns
-// the distance to its rim (below 0: between pebbles) and its tone.
+// Finds the nearest pebble of a lattice; each cell has a pebble with a centre, a size and a tone. Returns the distance
+// to its rim (below 0: between pebbles) and its tone.
 struct Pebble {
   float inside, tone;
 };
@@ -29,7 +29,7 @@ Pebble find_pebble(float x, float y, int period, std::uint32_t seed) {
   const int cx = static_cast<int>(std::floor(x)), cy = static_cast<int>(std::floor(y));
   for (int j = cy - 1; j <= cy + 1; ++j) {
     for (int i = cx - 1; i <= cx + 1; ++i) {
-      // Five numbers of six bits out of one hash.
+      // One hash gives five numbers of six bits.
       const std::uint32_t h = hash_lattice(((i % period) + period) % period, ((j % period) + period) % period, seed);
       const auto random = [h](int which) { return static_cast<float>((h >> (6 * which)) & 63u) * (1.0f / 64.0f); };
       const float dx = x - (static_cast<float>(i) + 0.25f + 0.5f * random(0));
@@ -136,7 +136,7 @@ Texture make_dirt() {
 
 Texture make_verge() {
   return paint_texture(1024, 256, [](float u, float v) {
-    // Grass as the meadow's, in its tint; bare ground as the beach's.
+    // Grass has the meadow's tint, bare ground that of the beach.
     const float patch = fractal_noise(u * 6.0f, v * 3.0f, 6, 4, 191),
                 blade = fractal_noise(u * 128.0f, v * 48.0f, 128, 2, 192);
     const Vec3f turf =

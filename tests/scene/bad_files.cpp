@@ -208,7 +208,7 @@ namespace {
 
 struct Recipe {
   const char* name;
-  const char* says;
+  const char* message_part;
   Mutation mutate;
 };
 
@@ -436,12 +436,13 @@ std::vector<Recipe> outside_recipes() {
 
 // Not one JSON value away from a good file.
 void write_raw_files(const TemporaryFolder& folder, std::vector<BadFile>& files) {
-  const auto add = [&](const std::string& name, const std::vector<std::uint8_t>& bytes, const std::string& says) {
+  const auto add = [&](const std::string& name, const std::vector<std::uint8_t>& bytes,
+                       const std::string& message_part) {
     write_file(folder / name, bytes);
-    files.push_back({folder / name, says});
+    files.push_back({folder / name, message_part});
   };
-  const auto add_text = [&](const std::string& name, const std::string& text, const std::string& says) {
-    add(name, {text.begin(), text.end()}, says);
+  const auto add_text = [&](const std::string& name, const std::string& text, const std::string& message_part) {
+    add(name, {text.begin(), text.end()}, message_part);
   };
   const std::vector<std::uint8_t> good = good_file().glb();
   const auto patched = [&](std::size_t at, std::uint32_t value) {
@@ -486,9 +487,9 @@ std::vector<BadFile> write_bad_files(const TemporaryFolder& folder) {
       CraftedFile file = good_file();
       recipe.mutate(file);
       const std::string name = recipe.name;
-      files.push_back({file.save_gltf(folder / (name + ".gltf")), recipe.says});
+      files.push_back({file.save_gltf(folder / (name + ".gltf")), recipe.message_part});
       // What is wrong inside is also wrong in the other container.
-      files.push_back({file.save_glb(folder / (name + ".glb")), recipe.says});
+      files.push_back({file.save_glb(folder / (name + ".glb")), recipe.message_part});
     }
   }
   write_raw_files(folder, files);

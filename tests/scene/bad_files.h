@@ -1,4 +1,4 @@
-// Crafted glTF files: a small good one to start from, and a row of bad ones. PNG files made by hand.
+// Crafted glTF files, one valid and many invalid ones, and PNG files written by hand.
 #pragma once
 
 #include <cstdint>
@@ -60,7 +60,7 @@ void append_png_chunk(std::vector<std::uint8_t>& file, const char* type, const s
 
 struct BadFile {
   std::string path;
-  std::string says;  // a part of the message
+  std::string message_part;  // a part of the message
 };
 std::vector<BadFile> write_bad_files(const TemporaryFolder& folder);
 

@@ -1,4 +1,4 @@
-// Poses, morphs and skins in double with the standard library's functions: what the code's results are held against.
+// An oracle for poses, morph targets and skins in double with the standard library's functions.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What the tests of the built-in scenes measure: counts, sound meshes, closed solids, digests.
+// Measurements for tests of built-in scenes: triangle counts, valid meshes, closed solids, digests.
 #pragma once
 
 #include <catch2/catch.hpp>

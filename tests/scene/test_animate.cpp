@@ -1,4 +1,4 @@
-// Keyframes against double and the standard library; which animations play; what moves with what.
+// Keyframes against double and the standard library; which animations play; which nodes move.
 #include <catch2/catch.hpp>
 
 #include "scene/build/animate.h"

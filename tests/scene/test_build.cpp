@@ -1,4 +1,4 @@
-// From a scene to what is rendered: baking, water outlines, cameras, light.
+// Building a scene for rendering: geometry in world space, outlines of water, cameras, lighting.
 #include <catch2/catch.hpp>
 
 #include <cmath>

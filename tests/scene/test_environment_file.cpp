@@ -1,4 +1,4 @@
-// Pictures as environments: formats, limits, bad numbers, and the cache on disk.
+// Pictures as environments: formats, limits, invalid numbers, and the cache on disk.
 #include <catch2/catch.hpp>
 
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// A written scene comes back identical, and the file is the same each time.
+// A written scene is read back unchanged, and writing it again gives the same bytes.
 #include <catch2/catch.hpp>
 
 #include <algorithm>

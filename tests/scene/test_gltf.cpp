@@ -1,4 +1,4 @@
-// What a good file means: elements, triangles, nodes, materials, cameras, water. Expected values by hand.
+// Valid files: elements, triangles, nodes, materials, cameras and water against values computed by hand.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>

@@ -1,4 +1,4 @@
-// Bad files: one line that names the file, never a crash, never half a scene.
+// Invalid files: each gives an error of one line that names the file, and no scene.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <string>
@@ -33,7 +33,7 @@ TEST_CASE("gltf: the file that the bad ones are made from is good", "[gltf]") {
   CHECK(error_of(good_file().save_glb(folder / "good.glb")) == "loaded");
 }
 
-TEST_CASE("gltf: each crafted bad file is one error that says what is wrong", "[gltf]") {
+TEST_CASE("gltf: each crafted invalid file is one error that names the fault", "[gltf]") {
   const TemporaryFolder folder;
   const std::vector<BadFile> files = write_bad_files(folder);
   REQUIRE(files.size() >= 100);
@@ -41,7 +41,7 @@ TEST_CASE("gltf: each crafted bad file is one error that says what is wrong", "[
     const std::string message = error_of(file.path);
     CAPTURE(message);
     CHECK(is_one_line_about(message, file.path));
-    CHECK_THAT(message, Catch::Matchers::Contains(file.says));
+    CHECK_THAT(message, Catch::Matchers::Contains(file.message_part));
   }
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("gltf: a file cut at any byte is an error", "[gltf]") {
   }
 }
 
-// Any byte may be anything: a load or an error, and nothing for a sanitizer to say.
+// Random changes of bytes: the file loads or gives an error, and sanitizers report nothing.
 TEST_CASE("gltf: a file with any byte changed loads or is one error", "[gltf]") {
   const TemporaryFolder folder;
   const std::vector<std::uint8_t> glb = good_file().glb();

@@ -1,4 +1,4 @@
-// Pictures made by hand, texel for texel.
+// Pictures written by hand, compared texel for texel.
 #include <catch2/catch.hpp>
 #include <limits>
 

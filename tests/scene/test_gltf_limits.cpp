@@ -1,4 +1,4 @@
-// Small files that ask for much: refused by a limit before the memory is taken.
+// Small files with large sizes: a limit refuses them before memory is allocated.
 #include <catch2/catch.hpp>
 #include <string>
 

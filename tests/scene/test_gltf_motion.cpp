@@ -1,4 +1,4 @@
-// Skins, morph targets, animations and instances from files: what is read, what is refused, what is written again.
+// Skins, morph targets, animations and instances of files: reading, refusing, and writing again.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
@@ -68,7 +68,7 @@ std::string error_of(const std::string& path, const LoadLimits& limits = {}) {
 
 struct Recipe {
   const char* name;
-  const char* says;
+  const char* message_part;
   std::function<void(CraftedFile&)> mutate;
 };
 
@@ -201,7 +201,7 @@ TEST_CASE("gltf: skins, morph targets, animations and instances are read as the 
   CHECK(scene.skins[0].joint_from_mesh[1][3].z == 7);
   const MeshPrimitive& skinned = scene.meshes[0].primitives[0];
   CHECK(skinned.influences == 4);
-  // Without weight a joint's number says nothing; weights of sum 2 are halved.
+  // The number of a joint without weight is replaced by 0; weights of sum 2 are halved.
   CHECK(skinned.joints == std::vector<std::uint16_t>{0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0});
   CHECK(skinned.weights == std::vector<float>{1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0});
 
@@ -268,7 +268,7 @@ TEST_CASE("gltf: what moves comes back from a .glb as it was", "[gltf][export]")
   CHECK(read_whole_file(folder / "written.glb") == read_whole_file(folder / "again.glb"));
 }
 
-TEST_CASE("gltf: each bad skin, morph target, animation and instance is one error that says what is wrong", "[gltf]") {
+TEST_CASE("gltf: each invalid skin, morph target, animation and instance is one error that names the fault", "[gltf]") {
   const TemporaryFolder folder;
   for (const auto& recipes : {skin_recipes(), morph_recipes(), animation_recipes()}) {
     for (const Recipe& recipe : recipes) {
@@ -278,7 +278,7 @@ TEST_CASE("gltf: each bad skin, morph target, animation and instance is one erro
       const std::string message = error_of(path);
       CAPTURE(message);
       CHECK_THAT(message, Catch::Matchers::StartsWith(path + ": "));
-      CHECK_THAT(message, Catch::Matchers::Contains(recipe.says));
+      CHECK_THAT(message, Catch::Matchers::Contains(recipe.message_part));
       CHECK_THAT(message, Catch::Matchers::Contains("; expected "));
       CHECK(message.find('\n') == std::string::npos);
     }

@@ -1,5 +1,5 @@
-// Real files: the sample models of the Khronos Group and a scan, with their triangle counts as listed beside them.
-// The folder is named by the environment variable SHOAL_SHARED_DATA; without it there is nothing to load.
+// Sample models of the Khronos Group and a scan, with the triangle counts of their list. The environment variable
+// SHOAL_SHARED_DATA names the folder; without it these tests load nothing.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -49,7 +49,7 @@ std::vector<Listed> read_list(const std::string& folder) {
 
 }  // namespace
 
-TEST_CASE("gltf: every model of the shared data loads with the triangles that its list says", "[gltf]") {
+TEST_CASE("gltf: every model of the shared data loads with the triangles of its list", "[gltf]") {
   const char* shared = std::getenv("SHOAL_SHARED_DATA");
   if (shared == nullptr || !std::filesystem::exists(std::string(shared) + "/gltf/MODELS.csv")) {
     WARN("SHOAL_SHARED_DATA is not set: the sample models are not tested");

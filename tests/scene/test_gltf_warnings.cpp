@@ -1,5 +1,5 @@
-// What a file holds and is left out or read otherwise: one warning, the rest of the scene as ever. docs/gltf.md lists
-// them.
+// Content of a file that is ignored or read differently: it gives one warning, and the rest of the scene is unchanged.
+// docs/gltf.md lists it.
 #include <catch2/catch.hpp>
 #include <functional>
 #include <string>
@@ -125,8 +125,8 @@ TEST_CASE("gltf: what is left out or read otherwise is one warning", "[gltf]") {
   }
 }
 
-// Specification, 3.12: a loader that does not know an extension goes without it, unless the file requires it.
-TEST_CASE("gltf: an extension that is not known is refused only where it is required", "[gltf]") {
+// Specification, 3.12: a loader ignores an extension that it does not support, unless the file requires it.
+TEST_CASE("gltf: an unsupported extension is refused only where the file requires it", "[gltf]") {
   const TemporaryFolder folder;
   for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_texture_basisu"}) {
     CraftedFile file = good_file();

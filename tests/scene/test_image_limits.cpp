@@ -1,4 +1,4 @@
-// Pictures that promise more than they hold: refused before a library takes the memory.
+// Pictures whose header exceeds their data: they are refused before a library allocates memory.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
@@ -98,7 +98,7 @@ TEST_CASE("images: the header of an OpenEXR file is checked before its library r
       CHECK_THAT(error_of(file), Catch::Matchers::Contains("an attribute is longer than the file"));
     }
   }
-  SECTION("an attribute that its type makes longer than its length says") {
+  SECTION("an attribute whose type is longer than its length") {
     for (const char* type : {"box2i", "chlist", "float", "v2f"}) {
       Bytes file = good;
       const std::size_t at = place_of(file, std::string(1, '\0') + type + '\0') + std::string(type).size() + 2;

@@ -1,4 +1,5 @@
-// Moving scenes: every vertex against double, normals, bounds, water, cameras and lights; sample models where they are.
+// Moving scenes: every vertex against double, normals, bounds, water, cameras and lights; sample models where they are
+// available.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <cstring>

@@ -1,5 +1,5 @@
-// The scenes of the papers: ball, knot, furnace, tank and pond. What the papers and the docs say of them, sound meshes,
-// closed solids, and the same bytes everywhere.
+// The scenes ball, knot, furnace, tank and pond: properties that the papers and docs/scenes.md state, valid meshes,
+// closed solids, and the same bytes on every machine.
 #include <catch2/catch.hpp>
 
 #include <cmath>

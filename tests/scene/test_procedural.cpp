@@ -1,4 +1,4 @@
-// The built-in scenes: triangle counts, sound meshes, closed solids, cameras, and the same bytes everywhere.
+// The built-in scenes: triangle counts, valid meshes, closed solids, cameras, and the same bytes on every machine.
 #include <catch2/catch.hpp>
 
 #include <array>

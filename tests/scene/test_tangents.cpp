@@ -1,4 +1,5 @@
-// Generated tangents: against analytic surfaces, mirrored texture seams, degenerate coordinates; placed by transforms.
+// Generated tangents against analytic surfaces, at mirrored texture seams and degenerate coordinates, and under
+// transforms.
 #include "scene/build/tangents.h"
 
 #include <catch2/catch.hpp>
@@ -61,7 +62,7 @@ TEST_CASE("tangents: along growing u on a sphere, unit, across the normal, the b
   }
 }
 
-TEST_CASE("tangents: weighted by the angle at the vertex, whatever the sizes, as double says") {
+TEST_CASE("tangents: weighted by the angle at the vertex for all sizes, against double") {
   // Two triangles share the edge from the origin; their u axes differ. All normals +z.
   MeshPrimitive mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-3, 4, 0}};
@@ -133,7 +134,7 @@ TEST_CASE("tangents: without area in the texture any direction across the normal
   CHECK(different == 0);
 }
 
-TEST_CASE("tangents: placed along the bent surface; a mirror image turns the bitangent's sign") {
+TEST_CASE("tangents: transformed along the surface; a mirroring transform reverses the sign of the bitangent") {
   const Mat4 stretched = from_rows({2, 0, 0, 5}, {0, 1, 0, 6}, {0, 0, -3, 7});
   const Vec4f t = place_tangent(stretched, {0.6f, 0, 0.8f, 1});
   const double length = std::hypot(1.2, 2.4);
