@@ -1,21 +1,26 @@
 #!/bin/bash
-# recipe_method.sh FOLDER SHOAL CMAKE_ARGUMENT...: CONTRIBUTING.md's recipe for a method, followed to the letter.
+# recipe_method.sh FOLDER SHOAL BUILD ISA CMAKE_ARGUMENT...: CONTRIBUTING.md's recipe for a method, followed to the
+# letter.
 #
-#   FOLDER  where a copy of the sources is kept and built, scalar and not optimized; a later run builds what has changed
+#   FOLDER  where a copy of the sources is kept and built; a later run builds what has changed
 #   SHOAL   the command of this build, which has the digests that are expected
+#   BUILD   its folder: the copy's build takes the objects that are the same there (reuse_objects.pl)
+#   ISA     the one instruction set that the copy is built for
 #
 # The recipe's file and its one line are taken from the page itself. They must be all that it takes: two objects are
 # compiled, no warning, and the command lists, renders and compares the method. As it stands there it is two-phase with
 # its two functions written out, so it has that method's digests.
 set -uo pipefail
-folder=$1 expected=$(realpath "$2")
-shift 2
+folder=$(realpath -m "$1") expected=$(realpath "$2") main=$(realpath "$3") isa=$4
+shift 4
 fail() { echo "FAILED: $*"; exit 1; }
-copy=$folder/source build=$folder/build
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+copy=$folder/source build=$folder/build records=$folder/records
 mkdir -p "$copy" || exit 1
 
 # A copy of what is built, without what an earlier run added to it. What has not changed keeps its time.
-rooms=(CMakeLists.txt cmake core raster water scene refraction compare app)
+mapfile -t rooms < <(sed -nE 's/^ *add_subdirectory\(([a-z_]+)\).*/\1/p' CMakeLists.txt | grep -vxE 'tests|bench')
+rooms+=(CMakeLists.txt cmake)
 while IFS= read -r -d '' file; do
   cmp -s "$file" "$copy/$file" && continue
   mkdir -p "$copy/$(dirname "$file")" && cp "$file" "$copy/$file" || fail "no copy of $file"
@@ -27,9 +32,14 @@ done < <(cd "$copy" && find "${rooms[@]}" -type f -print0)
 compile() {
   cmake --build "$build" -j 2 --target shoal >"$folder/$1.log" 2>&1 || { tail -30 "$folder/$1.log"; fail "$1: no build"; }
 }
-cmake -S "$copy" -B "$build" -DCMAKE_BUILD_TYPE=Release -DSHOAL_ISAS=scalar -DSHOAL_OPTIMIZE=-O0 -DSHOAL_WERROR=ON \
-  -DSHOAL_TESTS=OFF -DSHOAL_BENCH=OFF "$@" >"$folder/configure.log" 2>&1 || { tail -30 "$folder/configure.log"; exit 1; }
+rm -rf "$records"
+if [[ -f $main/build.ninja ]]; then perl "$here/reuse_objects.pl" --record "$main" "$PWD" "$build" "$copy" "$records" || exit 1; fi
+launcher=$(sed -n 's/^CMAKE_CXX_COMPILER_LAUNCHER:[A-Z]*=//p' "$main/CMakeCache.txt")
+launcher="perl;$here/reuse_objects.pl;$records${launcher:+;$launcher}"
+cmake -S "$copy" -B "$build" -DSHOAL_ISAS="$isa" -DSHOAL_WERROR=ON -DSHOAL_TESTS=OFF -DSHOAL_BENCH=OFF \
+  -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" "$@" >"$folder/configure.log" 2>&1 || { tail -30 "$folder/configure.log"; exit 1; }
 compile before
+rm -rf "$records"  # what the recipe compiles is compiled
 shoal=$build/bin/shoal
 "$shoal" list methods | awk '{ print $1 }' >"$folder/methods.before"
 
@@ -47,7 +57,7 @@ changed=$(for room in "${rooms[@]}"; do diff -rq "$room" "$copy/$room"; done | w
 compile after
 name=$(basename "$file" .cpp) option=$(grep -oE '^ *return \{"[a-z0-9-]+"' "$copy/$file" | cut -d'"' -f2)
 objects=$(grep -oE '[A-Za-z0-9_/.-]+\.cpp\.o' "$folder/after.log" | sed 's|.*/||' | sort -u | tr '\n' ' ')
-[[ $objects == "kernels_table.cpp.o $name.cpp.o " ]] || fail "the recipe compiled: $objects"
+[[ $objects == "kernel_table.isa.cpp.o $name.cpp.o " ]] || fail "the recipe compiled: $objects"
 
 diff <(cat "$folder/methods.before"; echo "$option") <("$shoal" list methods | awk '{ print $1 }') || fail "list methods"
 digests() { "$1" render box --camera grazing --size 64x48 --set surface=perlin --set slope=0.1 --shadows off --method "$2" --digest; }
