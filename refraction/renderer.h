@@ -11,6 +11,7 @@
 
 #include "core/isa.h"
 #include "raster/camera.h"
+#include "refraction/methods/method_info.h"
 #include "scene/hit_kind.h"
 #include "scene/scene.h"
 
@@ -111,23 +112,6 @@ class Renderer {
 
 // Digest (hex) of a finished 8-bit picture: what `frame_digests` lists.
 std::string picture_digest(const Frame& frame);
-
-// Registry of methods (refraction/methods/methods.def), in its order.
-struct MethodOptionInfo {
-  std::string key;
-  std::string default_value;  // as it would be given
-  std::string range;          // what is allowed, in words
-  std::string meaning;        // one sentence without its full stop
-};
-struct MethodInfo {
-  const char* name;
-  const char* category;  // raster, volume, hybrid, traced
-  const char* description;
-  const char* source;
-  std::vector<MethodOptionInfo> options;
-  bool portable = true;  // the same bytes on every machine
-};
-const std::vector<MethodInfo>& method_infos();
 
 // One world point through every stage (shoal probe --point).
 struct PointProbe {

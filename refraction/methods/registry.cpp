@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "refraction/methods/kernel_table.h"
-#include "refraction/renderer.h"
+#include "refraction/methods/method_info.h"
 
 namespace shoal {
 

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Which room includes which: core <- raster <- shading; core <- water; all four <- scene <- trace; all of these
-# <- refraction <- compare <- app. Third-party headers stay at the edges, intrinsics in core/wide.
+# <- refraction <- compare <- app. Which folder of a room includes which other one of it: the table `folders`. Third-party
+# headers stay at the edges, intrinsics in core/wide.
 set -uo pipefail
 
 # Lines "file header kind" of every include, kind q (quoted) or s (system).
@@ -20,6 +21,22 @@ sees[trace]="${sees[scene]} trace"
 sees[refraction]="${sees[trace]} refraction"
 sees[compare]="${sees[refraction]} compare"
 sees[app]="${sees[compare]} app"
+
+# The folders of rooms that have some, and the other folders of the same room that each one sees. A room's own name stands
+# for the files at its top; one header instead of a folder stands for itself.
+declare -A folders=(
+  [core]="core/wide" [core/wide]=""
+  [shading]="shading/environment shading/textures" [shading/environment]="" [shading/textures]="shading/srgb.h"
+  [shading/shadow]="shading"
+  [scene]="" [scene/build]="scene" [scene/procedural]="scene" [scene/images]="" [scene/gltf]="scene scene/build scene/images"
+  [refraction/broad]="" [refraction/data]="refraction/broad" [refraction/field]="refraction/data"
+  [refraction/passes]="refraction/broad refraction/data"
+  [refraction/narrow]="refraction/passes refraction/broad refraction/data"
+)
+folders[refraction/methods]="refraction/narrow refraction/field ${folders[refraction/narrow]}"
+folders[refraction]="refraction/methods ${folders[refraction/methods]}"
+# Light on hits reads the shadow maps, whose own files read the view that shading reads.
+declare -A besides=([shading/shade_hits.isa.cpp]="shading/shadow")
 # The part of scene/ that reads and writes files.
 file_reader='^scene/(gltf|images)/'
 status=0 seen=0
@@ -33,6 +50,15 @@ while read -r file header kind; do
   if [[ $kind == q ]]; then
     [[ -f $header ]] || complain "$file: includes \"$header\"; expected a path from the root"
     [[ " ${sees[$room]} " == *" ${header%%/*} "* ]] || complain "$file: includes \"$header\"; $room sees only: ${sees[$room]}"
+    folder=${file%/*} other=${header%/*}
+    if [[ $folder != "$other" && ${header%%/*} == "$room" ]]; then
+      allowed=" ${folders[$folder]-} ${besides[$file]-} "
+      if [[ ! -v folders[$folder] ]]; then
+        complain "$file: includes \"$header\"; expected $folder in the table of folders"
+      elif [[ $allowed != *" $other "* && $allowed != *" $header "* ]]; then
+        complain "$file: includes \"$header\"; $folder sees only: ${folders[$folder]:-no other folder of $room}"
+      fi
+    fi
     if [[ $edge == no && $header =~ $file_reader ]]; then
       complain "$file: includes \"$header\"; only the edges read files"
     fi
