@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "core/thread_pool.h"
-#include "shading/environment/build.h"
 #include "refraction/renderer.h"
+#include "shading/environment/build.h"
 
 using namespace shoal;
 
@@ -37,7 +37,7 @@ MeshPrimitive ball() {
   return mesh;
 }
 
-Mat4 moved(float x, float y, float z) { return {{{1, 0, 0, x}, {0, 1, 0, y}, {0, 0, 1, z}, {0, 0, 0, 1}}}; }
+Mat4 moved(float x, float y, float z) { return translation({x, y, z}); }
 
 Background surroundings(const EquirectImage& image) {
   ThreadPool pool(2);
@@ -114,7 +114,7 @@ TEST_CASE("environment: rays that leave see it, above the water, mirrored in it 
   }
   Scene scene = scene_with(surroundings(image));
   // A pond to the horizon, the eye a metre above it and looking level: the lower half of the view.
-  scene.nodes[0].world_from_local = {{{1, 0, 0, 0}, {0, 1, 0, 1}, {0, 0, 1, 6}, {0, 0, 0, 1}}};
+  scene.nodes[0].world_from_local = from_rows({1, 0, 0, 0}, {0, 1, 0, 1}, {0, 0, 1, 6});
   WaterSpec spec;
   spec.has_size = spec.has_depth = true;
   spec.size_x = spec.size_z = 400;

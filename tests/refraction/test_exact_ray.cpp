@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "broad_phase_oracle.h"
+#include "raster/ray_triangle.h"
 #include "water/exact_ray.h"
 
 namespace {

@@ -275,7 +275,7 @@ TEST_CASE("ray-traced: rays are counted by kind", "[ray-traced]") {
   Node sun;
   sun.light = 0;
   const float c = 0.8f, s = 0.6f;  // shines down and along -z
-  sun.world_from_local = {{{1, 0, 0, 0}, {0, s, c, 0}, {0, -c, s, 0}, {0, 0, 0, 1}}};
+  sun.world_from_local = from_rows({1, 0, 0, 0}, {0, s, c, 0}, {0, -c, s, 0});
   scene.nodes.push_back(sun);
   add_water(scene, 30, 1, 0, {0, 0, 0});
   const RenderScene built = build_render_scene(scene);

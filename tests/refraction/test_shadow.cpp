@@ -8,6 +8,7 @@
 #include <string>
 
 #include "refraction/renderer.h"
+#include "scene/sun_bend.h"
 #include "shading/shadow/shadow_map.h"
 
 using namespace shoal;
@@ -20,10 +21,8 @@ Vec3d unit(Vec3d v) { return v * (1.0 / std::sqrt(dot(v, v))); }
 // Columns right, up, back; at a place.
 Mat4 frame(Vec3d x, Vec3d y, Vec3d z, Vec3d at) {
   const auto f = [](double v) { return static_cast<float>(v); };
-  return {{{f(x.x), f(y.x), f(z.x), f(at.x)},
-           {f(x.y), f(y.y), f(z.y), f(at.y)},
-           {f(x.z), f(y.z), f(z.z), f(at.z)},
-           {0, 0, 0, 1}}};
+  return from_rows({f(x.x), f(y.x), f(z.x), f(at.x)}, {f(x.y), f(y.y), f(z.y), f(at.y)},
+                   {f(x.z), f(y.z), f(z.z), f(at.z)});
 }
 // Looks or shines from `at` towards `to`.
 Mat4 aimed(Vec3d at, Vec3d to) {

@@ -168,7 +168,7 @@ TEST_CASE("bvh16: a bounded depth, however triangles lie", "[trace]") {
     for (const std::int32_t child : bvh.nodes[n].child) {
       if (child == Bvh16::kNone) continue;
       if (child < 0)
-        triangles += static_cast<std::size_t>(__builtin_popcount(bvh.kinds[static_cast<std::size_t>(~child)].there));
+        triangles += static_cast<std::size_t>(__builtin_popcount(bvh.kinds[static_cast<std::size_t>(~child)].present));
       else
         height[n] = std::max(height[n], height[static_cast<std::size_t>(child)] + 1);
     }
