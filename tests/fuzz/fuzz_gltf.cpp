@@ -52,7 +52,7 @@ void check_consistent(const RenderScene& scene) {
     for (const std::uint32_t v : t.vertex) promise(v < g.vertices.size(), "a triangle has a vertex that is not there");
     promise(t.material < scene.materials.materials.size(), "a triangle has a material that is not there");
   }
-  for (const Chunk& c : g.chunks) {
+  for (const Meshlet& c : g.chunks) {
     for (std::size_t i = c.first_index; i < c.first_index + std::size_t{c.triangle_count}; ++i) {
       promise(g.corner0[i] < c.vertex_count && g.corner1[i] < c.vertex_count && g.corner2[i] < c.vertex_count,
               "a chunk's corner is not among its vertices");
