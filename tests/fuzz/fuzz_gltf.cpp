@@ -52,12 +52,12 @@ void check_consistent(const RenderScene& scene) {
     for (const std::uint32_t v : t.vertex) promise(v < g.vertices.size(), "a triangle has a vertex that is not there");
     promise(t.material < scene.materials.materials.size(), "a triangle has a material that is not there");
   }
-  for (const Meshlet& c : g.chunks) {
-    for (std::size_t i = c.first_index; i < c.first_index + std::size_t{c.triangle_count}; ++i) {
-      promise(g.corner0[i] < c.vertex_count && g.corner1[i] < c.vertex_count && g.corner2[i] < c.vertex_count,
-              "a chunk's corner is not among its vertices");
+  for (const Meshlet& m : g.meshlets) {
+    for (std::size_t i = m.first_index; i < m.first_index + std::size_t{m.triangle_count}; ++i) {
+      promise(g.corner0[i] < m.vertex_count && g.corner1[i] < m.vertex_count && g.corner2[i] < m.vertex_count,
+              "a meshlet's corner is not among its vertices");
     }
-    promise(finite(c.bounds_min_world) && finite(c.bounds_max_world), "a chunk's bounds are not finite");
+    promise(finite(m.bounds_min_world) && finite(m.bounds_max_world), "a meshlet's bounds are not finite");
   }
   for (const Material& m : scene.materials.materials) {
     check_texture(scene.materials, m.base_color_texture);
