@@ -8,8 +8,10 @@
 
 #include <cstdint>
 #include <map>
+#include <new>
 #include <span>
 #include <string>
+#include <type_traits>
 
 #include "refraction/data/method_state.h"
 
@@ -33,19 +35,24 @@ struct Member<Field Options::*> {
   using OptionsType = Options;
   using FieldType = Field;
 };
+// Internal to each file: methods may give their option structs the same name, each in an unnamed namespace of its own,
+// and GCC 12 would merge the functions of two such structs as one.
 template <auto field>
-void set(void* options, float value) {
+static void set(void* options, float value) {
   using M = Member<decltype(field)>;
   static_cast<typename M::OptionsType*>(options)->*field = static_cast<typename M::FieldType>(value);
 }
-inline void set_nothing(void*, float) {}
+template <class Options>
+static void construct(void* options) {
+  new (options) Options();
+}
 }  // namespace option_detail
 
 //   field     a member of the option struct: bool, int or float; its initial value is the default
 //   min, max  of the values allowed
 //   meaning   one sentence without its full stop
 template <auto field>
-constexpr MethodOption method_option(const char* key, float min, float max, const char* meaning) {
+static constexpr MethodOption method_option(const char* key, float min, float max, const char* meaning) {
   using M = option_detail::Member<decltype(field)>;
   using Field = typename M::FieldType;
   constexpr MethodOption::Kind kind = std::is_same_v<Field, bool>  ? MethodOption::Kind::kBool
@@ -55,7 +62,7 @@ constexpr MethodOption method_option(const char* key, float min, float max, cons
       key, meaning, kind, min, max, static_cast<float>(typename M::OptionsType{}.*field), &option_detail::set<field>};
 }
 template <auto field>
-constexpr MethodOption method_option(const char* key, const char* meaning) {
+static constexpr MethodOption method_option(const char* key, const char* meaning) {
   return method_option<field>(key, 0, 1, meaning);
 }
 
@@ -65,9 +72,9 @@ struct OptionList {
   void (*construct)(void* options) = nullptr;  // writes the defaults; null where there are no options
 };
 template <class Options, std::size_t count>
-constexpr OptionList option_list(const MethodOption (&fields)[count]) {
+static constexpr OptionList option_list(const MethodOption (&fields)[count]) {
   static_assert(sizeof(Options) <= kMaxOptionBytes);
-  return {fields, [](void* to) { new (to) Options(); }};
+  return {fields, &option_detail::construct<Options>};
 }
 
 // A value as it would be given: true, 4, 0.5.
