@@ -40,6 +40,7 @@ cmake -S "$copy" -B "$build" -DSHOAL_ISAS="$isa" -DSHOAL_WERROR=ON -DSHOAL_TESTS
   -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" "$@" >"$folder/configure.log" 2>&1 || { tail -30 "$folder/configure.log"; exit 1; }
 compile before
 rm -rf "$records"  # what the recipe compiles is compiled
+compile before     # generated sources, whose objects were taken over under another path
 shoal=$build/bin/shoal
 "$shoal" list methods | awk '{ print $1 }' >"$folder/methods.before"
 
