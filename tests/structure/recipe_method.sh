@@ -56,7 +56,7 @@ changed=$(for room in "${rooms[@]}"; do diff -rq "$room" "$copy/$room"; done | w
 [[ $changed == 2 ]] || fail "$changed files differ, not 2"
 
 compile after
-name=$(basename "$file" .cpp) option=$(grep -oE '^ *return \{"[a-z0-9-]+"' "$copy/$file" | cut -d'"' -f2)
+name=$(basename "$file" .cpp) option=$(grep -oE 'return ray_method<[A-Za-z]+>\("[a-z0-9-]+"' "$copy/$file" | cut -d'"' -f2)
 objects=$(grep -oE '[A-Za-z0-9_/.-]+\.cpp\.o' "$folder/after.log" | sed 's|.*/||' | sort -u | tr '\n' ' ')
 [[ $objects == "kernel_table.isa.cpp.o $name.cpp.o " ]] || fail "the recipe compiled: $objects"
 
