@@ -24,8 +24,7 @@ int run_list(const std::string& kind, bool verbose) {
   std::string lines;
   if (kind == "methods") {
     for (const MethodInfo& m : method_infos()) {
-      lines += fmt::format("{:<16} {:<7} {} ({}){}\n", m.name, m.category, m.description, m.source,
-                           m.portable ? "" : "; not the same bytes on every machine");
+      lines += fmt::format("{:<16} {:<7} {} ({})\n", m.name, m.category, m.description, m.source);
       if (verbose) lines += option_lines(m);
     }
   } else if (kind == "surfaces") {

@@ -11,6 +11,7 @@
 #include "refraction/broad/broad_phase.h"
 #include "shading/light.h"
 #include "shading/shading_view.h"
+#include "trace/bvh16.h"
 
 namespace shoal::bench {
 
@@ -73,5 +74,23 @@ struct RefractionKernels {
   void (*confirm)(const VisibleIn&, bool by_neighbours, std::size_t region, std::int32_t* out);
 };
 SHOAL_ISA_TABLE(RefractionKernels, refraction_kernels)
+
+// Sixteen rays, and what they hit first.
+struct alignas(64) RayBlock {
+  float origin_world[3][16], direction_world[3][16];  // unit directions
+  float t_far[16];
+};
+struct alignas(64) HitsOfBlock {
+  std::int32_t id[16];
+  float t[16];
+};
+
+struct TraceKernels {
+  void (*nearest)(const Bvh16&, const ShadingView&, const RayBlock&, HitsOfBlock& out);
+  // The same by one traversal for each ray.
+  void (*each)(const Bvh16&, const ShadingView&, const RayBlock&, HitsOfBlock& out);
+  std::uint32_t (*blocked)(const Bvh16&, const ShadingView&, const RayBlock&);  // a bit a ray
+};
+SHOAL_ISA_TABLE(TraceKernels, trace_kernels)
 
 }  // namespace shoal::bench

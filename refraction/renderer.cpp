@@ -11,7 +11,7 @@
 #include "refraction/frame.h"
 #include "scene/light_medium.h"
 #include "scene/sun_bend.h"
-#include "trace/trace_rays.h"
+#include "trace/sun_blocked.h"
 #include "water/prepare_surface.h"
 
 namespace shoal {
@@ -112,8 +112,7 @@ struct Renderer::Impl {
   std::vector<WaterSurface> surfaces;        // at this time
   std::vector<PlacedWater> water;
   std::vector<LightMedium> light_media;
-  Bvh16 bvh;
-  std::unique_ptr<RayQueries> rays;  // where the method or the shadows trace rays, else null
+  Bvh16 bvh, blended_bvh;
   TracedShadows traced_shadows;
   SceneView view;
   OutlineView outline_view;
@@ -159,17 +158,18 @@ struct Renderer::Impl {
   bool captures() const { return settings.digests || settings.aovs != 0; }
   bool has_water() const { return !scene.waters.empty(); }
 
-  // The structures that rays are traced against: the BVH of raster and hybrid methods in scenes with water, Embree's
-  // for the reference and traced shadows.
+  bool traces_all() const { return method.kernels.trace != nullptr; }
+  // Rays that the frame counts: those of the reference and of traced shadows.
+  bool counts_rays() const { return traces_all() || settings.shadows == Shadows::kRays; }
+
+  // The BVHs that rays are traced against. Corners are kept where every pixel traces rays.
   void build_trace(bool waves) {
-    if (has_water() && method.kernels.trace == nullptr) {
-      bvh.build(scene.geometry, scene.materials, waves, pool);
-      trace.bvh = &bvh;
-    }
-    if (method.kernels.trace == nullptr && settings.shadows != Shadows::kRays) return;
-    rays = make_ray_queries(scene, pool.threads());
-    if (rays == nullptr) throw UsageError("this build has no ray tracer; expected a method that is not ray-traced");
-    trace.rays = rays.get();
+    if (!has_water() && !counts_rays()) return;
+    bvh.build(scene.geometry, scene.materials, Bvh16::Content::kOpaque, waves || counts_rays(), pool);
+    trace.bvh = &bvh;
+    if (!traces_all() || blended.empty()) return;
+    blended_bvh.build(scene.geometry, scene.materials, Bvh16::Content::kBlended, true, pool);
+    trace.blended = &blended_bvh;
   }
 
   // The views of the scene, anew where the scene's arrays may have moved.
@@ -180,7 +180,7 @@ struct Renderer::Impl {
     shading.textures = scene.materials.textures.data();
     shading.lighting = &scene.lighting;
     shading.sun_shadows = &shadows;
-    traced_shadows = {&shading, rays.get(), &counts.rays};
+    traced_shadows = {&shading, trace.bvh, &counts.rays};
     if (settings.shadows == Shadows::kRays) shading.shadow_rays = {kernels.sun_blocked, &traced_shadows};
     view.drawables = scene.geometry.drawables;
     view.triangle_count = static_cast<std::int32_t>(scene.geometry.triangles.size());
@@ -271,8 +271,9 @@ struct Renderer::Impl {
     if (has_water()) outlines.build(scene.waters);
     view_scene();
     clock.lap("animate");
-    if (rays != nullptr) rays->update(), clock.lap("rays.build");
-    if (trace.bvh != nullptr) bvh.refit(scene.geometry, pool), clock.lap("bvh.refit");
+    if (trace.bvh != nullptr) bvh.refit(scene.geometry, pool);
+    if (trace.blended != nullptr) blended_bvh.refit(scene.geometry, pool);
+    if (trace.bvh != nullptr) clock.lap("bvh.refit");
     build_sun_shadows();
     clock.lap("shadow.map");
     if (method.kernels.prepare != nullptr) prepare_method(&camera), clock.lap("method.build");
@@ -344,7 +345,7 @@ struct Renderer::Impl {
     out.method_figures.clear();
     if (state.data != nullptr) out.method_figures = state.data->figures();
     out.rays.clear();
-    if (rays != nullptr)
+    if (counts_rays())
       for (int kind = 0; kind < RayCounts::kKinds; ++kind) out.rays.emplace_back(kRayNames[kind], counts.rays.of[kind]);
   }
 

@@ -233,9 +233,7 @@ void trace_pixels(const FrameIn& in, const ViewState& view, const FrameOut& out,
   Targets& t = out.targets;
   {
     Stage stage(run, "trace");
-    const TraceIn trace{
-        in.scene, in.trace, view, in.grids, out.work.water, in.state, in.reflects_scene, !in.blended_meshlets.empty(),
-        in.post};
+    const TraceIn trace{in.scene, in.trace, view, in.grids, out.work.water, in.state, in.reflects_scene, in.post};
     const TraceOut traced{t.direct, t.gbuffer,      t.hits,          t.interface,
                           t.lit,    t.srgb8.data(), out.counts.rays, out.counts.water_pixels};
     stage.for_each(in.grids.frame.region_count(), [&](std::size_t region) { in.method.trace(trace, traced, region); });

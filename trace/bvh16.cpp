@@ -215,11 +215,13 @@ std::vector<Split> split_all(std::vector<Primitive>& primitives, ThreadPool& poo
   return all;
 }
 
-// Boxes of the opaque triangles.
-std::vector<Primitive> opaque_primitives(const Geometry& geometry, const Materials& materials, ThreadPool& pool) {
+// Boxes of the triangles of one content.
+std::vector<Primitive> primitives_of(const Geometry& geometry, const Materials& materials, Bvh16::Content content,
+                                     ThreadPool& pool) {
+  const bool blended = content == Bvh16::Content::kBlended;
   std::vector<std::int32_t> triangles;
   for (const Meshlet& meshlet : geometry.meshlets)
-    if (materials.materials[meshlet.material].alpha_mode != AlphaMode::kBlend)
+    if ((materials.materials[meshlet.material].alpha_mode == AlphaMode::kBlend) == blended)
       for (int k = 0; k < meshlet.triangle_count; ++k)
         triangles.push_back(static_cast<std::int32_t>(meshlet.first_triangle) + k);
   std::vector<Primitive> primitives(triangles.size());
@@ -257,9 +259,10 @@ int open_split(const std::vector<Split>& splits, std::int32_t (&parts)[Bvh16::kW
 
 }  // namespace
 
-void Bvh16::build(const Geometry& geometry, const Materials& materials, bool with_corners, ThreadPool& pool) {
+void Bvh16::build(const Geometry& geometry, const Materials& materials, Content content, bool with_corners,
+                  ThreadPool& pool) {
   nodes.clear(), leaves.clear(), kinds.clear(), corners.clear();
-  std::vector<Primitive> primitives = opaque_primitives(geometry, materials, pool);
+  std::vector<Primitive> primitives = primitives_of(geometry, materials, content, pool);
   if (primitives.empty()) return;
   const std::vector<Split> splits = split_all(primitives, pool);
   leaves.reserve(static_cast<std::size_t>(splits[0].leaves)), kinds.reserve(static_cast<std::size_t>(splits[0].leaves));
@@ -274,6 +277,7 @@ void Bvh16::build(const Geometry& geometry, const Materials& materials, bool wit
       kind.present |= bit;
       if (!material.double_sided) kind.one_sided |= bit;
       if (material.alpha_mode == AlphaMode::kMask) kind.alpha_tested |= bit;
+      if (!material.unlit && content == Content::kOpaque) kind.casts_shadow |= bit;
     }
     kinds.push() = kind;
     return ~static_cast<std::int32_t>(leaves.size() - 1);

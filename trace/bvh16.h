@@ -1,5 +1,4 @@
-// A bounding volume hierarchy over the scene's opaque triangles, sixteen children wide; trace/nearest_hit.h traverses
-// it.
+// A bounding volume hierarchy over a scene's triangles, sixteen children wide; trace/traversal.h traverses it.
 //
 // Nodes have sixteen children, leaves sixteen triangles near each other: all boxes of either are tested at once. The
 // boxes decide only which triangles are tested; the hit that is found does not depend on them.
@@ -39,15 +38,20 @@ struct Bvh16 {
     float p0[3][kWidth], e1[3][kWidth], e2[3][kWidth];  // first corners, world, and the other two less it
   };
   struct Kinds {
-    std::uint16_t present, one_sided, alpha_tested;  // a bit a triangle
+    std::uint16_t present, one_sided, alpha_tested, casts_shadow;  // a bit a triangle
   };
   PodVector<Node> nodes;       // the root last; none: nothing is opaque
   PodVector<Leaf> leaves;      // in the order of the hierarchy, near ones together
   PodVector<Kinds> kinds;      // of the leaves
   PodVector<Corners> corners;  // the same, for scenes with many queries; else empty, and read from the scene
 
-  // Builds over all opaque triangles, alpha-tested ones included. The result does not depend on the threads.
-  void build(const Geometry& geometry, const Materials& materials, bool with_corners, ThreadPool& pool);
+  // kOpaque: everything drawn that is not blended, alpha-tested triangles included.
+  enum class Content : std::uint8_t { kOpaque, kBlended };
+
+  // Builds over all triangles of one content. The result does not depend on the threads.
+  //   with_corners  keeps the corners of the triangles: faster queries for more memory
+  void build(const Geometry& geometry, const Materials& materials, Content content, bool with_corners,
+             ThreadPool& pool);
   // Computes boxes and corners anew after vertices have moved.
   void refit(const Geometry& geometry, ThreadPool& pool);
 };

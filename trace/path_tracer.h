@@ -17,15 +17,17 @@
 #include "shading/block_color.h"
 #include "shading/shade_hits.h"
 #include "shading/sky.h"
+#include "trace/nearest_hit.h"
 #include "trace/path.h"
-#include "trace/trace_rays.h"
+#include "trace/ray_counts.h"
+#include "trace/seen_through.h"
 #include "water/exact_ray.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
 // Traces sixteen paths through a scene.
-//   Rays      first_hits(path, t_far): the triangles that the path's lanes hit first; count(kind, lanes) of the rays
-//             traced; blended(): the ray queries for blended triangles, or null where none are composited
+//   Rays      first_hits(path, t_far): what the path's lanes hit first (NearestHit); count(kind, lanes) of the rays
+//             traced; blended(): the BVH over the blended triangles, or null where none are composited
 //   Recorder  receives what the paths find, for the buffers of the pixels' centres:
 //             visible(path, id, water, hit, wet): the first hits of the eye's rays
 //             surface(sample, lanes): the surface that the eye's rays hit
@@ -42,7 +44,8 @@ class PathTracer {
   // Adds the light that the paths carry to the block's colour.
   __attribute__((noinline)) void trace(const Path& path) {
     const WaterCrossing water = nearest_water(scene_.water, path);
-    const WideI id = rays_.first_hits(path, water.t);
+    const NearestHit nearest = rays_.first_hits(path, water.t);
+    const WideI id = nearest.id;
     const WideM hit = path.lanes & is_triangle(id);
     const WideM wet = path.lanes & !hit & (water.body >= WideI(0));
     const WideM gone = path.lanes & !hit & !wet;
@@ -52,7 +55,7 @@ class PathTracer {
       return;
     }
     Path behind = path;
-    const SeenThrough over = see_through(behind, id, water, hit, wet);
+    const SeenThrough over = see_through(behind, nearest, water, hit, wet);
     end(behind, id, water, hit, gone, wet);
     if (path.level == 1)
       out_.covered = select(path.lanes, WideF(1.0f) - over.transmittance * (WideF(1.0f) - out_.covered), out_.covered);
@@ -77,10 +80,9 @@ class PathTracer {
   }
 
   // Adds the light of blended triangles on the way, which dims the light from behind.
-  SeenThrough see_through(Path& path, WideI id, const WaterCrossing& water, WideM hit, WideM wet) {
-    WideF t = select(wet, water.t, WideF(kEndless));
-    if (any(hit)) t = select(hit, triangle_distance(scene_.geometry(), path.ray, id, hit), t);
-    const WideI what = select(hit, id, select(wet, WideI(kFirstWaterId) + water.body, WideI(kNoId)));
+  SeenThrough see_through(Path& path, const NearestHit& nearest, const WaterCrossing& water, WideM hit, WideM wet) {
+    const WideF t = select(hit, nearest.t, select(wet, water.t, WideF(kEndless)));
+    const WideI what = select(hit, nearest.id, select(wet, WideI(kFirstWaterId) + water.body, WideI(kNoId)));
     const SeenThrough over = seen_through(*rays_.blended(), scene_, path.ray, path.differential,
                                           {path.t_near, t, what, path.medium}, path.lanes);
     add(path.weight * path.clear, over.light, path.lanes);

@@ -3,14 +3,13 @@
 #pragma once
 
 #include "trace/bvh16.h"
-#include "trace/ray_queries.h"
 
 namespace shoal {
 
-// Both structures outlive the frame and are not written by it.
+// Both outlive the frame and are not written by it.
 struct TraceView {
-  const Bvh16* bvh = nullptr;        // over the opaque triangles, in scenes with water
-  const RayQueries* rays = nullptr;  // of the reference and of traced shadows, else null
+  const Bvh16* bvh = nullptr;      // over the opaque triangles, where anything traces rays
+  const Bvh16* blended = nullptr;  // over the blended ones, for traced methods; null: there are none
 };
 
 }  // namespace shoal

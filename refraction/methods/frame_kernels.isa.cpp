@@ -1,6 +1,6 @@
 // The kernels of one instruction set that are the same for every method.
 #include "refraction/methods/kernels.h"
-#include "trace/trace_rays.h"
+#include "trace/sun_blocked.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 

@@ -4,11 +4,6 @@
 namespace shoal::inline SHOAL_ISA_NS {
 
 #define SHOAL_METHOD(name) Method name();
-#if defined(SHOAL_HAS_RAY_TRACER)
-#define SHOAL_TRACED_METHOD(name) SHOAL_METHOD(name)
-#else
-#define SHOAL_TRACED_METHOD(name)
-#endif
 #include "refraction/methods/methods.def"
 #undef SHOAL_METHOD
 

@@ -95,7 +95,6 @@ struct Method {
   const char* source;
   MethodKernels kernels;
   OptionList options = {};
-  bool portable = true;  // the same bytes on every machine (docs/DETERMINISM.md)
 };
 
 // Throws UsageError for an unknown name.

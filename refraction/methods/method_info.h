@@ -19,7 +19,6 @@ struct MethodInfo {
   const char* description;
   const char* source;
   std::vector<MethodOptionInfo> options;
-  bool portable = true;  // the same bytes on every machine
 };
 const std::vector<MethodInfo>& method_infos();
 

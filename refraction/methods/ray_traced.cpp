@@ -8,7 +8,7 @@
 // Source  Whitted 1980; Li et al., Sec. 4 (recursive tracing of Perlin water).
 // Differs Texture filtering follows ray differentials (Igehy 1999) as the raster methods do, not cones. A ray beyond
 //         the depth or below the weight sees the background, so that a white scene stays white.
-// Error   Embree finds the triangle that is hit (robust mode); the point on it is our own arithmetic (resolve.h).
+// Error   trace/nearest_hit.h: which triangle a ray hits; raster/resolve.h: the point on it.
 #include "refraction/methods/kernels.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
@@ -45,11 +45,10 @@ Method ray_traced() {
   kernels.trace = &trace;
   return {"ray-traced",
           MethodCategory::kTraced,
-          "the reference: recursive reflection and refraction, by Embree",
+          "the reference: recursive reflection and refraction",
           "Whitted 1980; Li et al.; Liu et al. 2020, reference [6]",
           kernels,
-          option_list<Options>(kOptions),
-          false};
+          option_list<Options>(kOptions)};
 }
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -11,12 +11,12 @@ namespace {
 // First hits by the BVH; blended materials on the way are not composited.
 struct BvhRays {
   const SecondaryIn& in;
-  WideI first_hits(const Path& path, WideF t_far) const {
-    return nearest_hits(*in.trace.bvh, in.scene.shading, path.ray, path.differential, {WideI(kNoId), t_far}, path.lanes)
-        .id;
+  NearestHit first_hits(const Path& path, WideF t_far) const {
+    return nearest_hits(*in.trace.bvh, in.scene.shading, path.ray, path.differential, {WideI(kNoId), t_far},
+                        path.lanes);
   }
   static void count(RayCounts::Kind, WideM) {}
-  static const RayQueries* blended() { return nullptr; }
+  static const Bvh16* blended() { return nullptr; }
 };
 
 // Hits that the pixel shows, into the captured hit buffers. Paths start behind the eye's own crossing here.

@@ -24,7 +24,6 @@ struct TraceIn {
   const std::vector<WaterOptics>& water;
   const MethodState& state;
   bool reflects_scene;  // --reflections
-  bool any_blended;
   PostSettings post;
 };
 struct TraceOut {

@@ -11,18 +11,18 @@ namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
 
-// The queries of the paths, by Embree.
+// The queries of the paths.
 struct TracedRays {
   const TraceIn& in;
   RayCounts& counts;
-  WideI first_hits(const Path& path, WideF t_far) const {
-    return shoal::first_hits(*in.trace.rays, in.scene.shading, path.ray, path.differential, path.t_near, t_far,
-                             path.lanes);
+  NearestHit first_hits(const Path& path, WideF t_far) const {
+    return nearest_hits(*in.trace.bvh, in.scene.shading, path.ray, path.differential, {WideI(kNoId), t_far}, path.lanes,
+                        path.t_near);
   }
   void count(RayCounts::Kind kind, WideM lanes) const {
     count_rays(counts, kind, static_cast<std::uint64_t>(__builtin_popcount(to_bits(lanes))));
   }
-  const RayQueries* blended() const { return in.any_blended ? in.trace.rays : nullptr; }
+  const Bvh16* blended() const { return in.trace.blended; }
 };
 
 // What the paths of a block find, into the buffers that the raster stages would leave.

@@ -28,11 +28,9 @@ const shoal::ProceduralScene* find_built_in(const std::string& name) {
   return nullptr;
 }
 
-std::vector<std::string> portable_methods() {
+std::vector<std::string> all_methods() {
   std::vector<std::string> names;
-  for (const shoal::MethodInfo& method : shoal::method_infos()) {
-    if (method.portable) names.emplace_back(method.name);
-  }
+  for (const shoal::MethodInfo& method : shoal::method_infos()) names.emplace_back(method.name);
   return names;
 }
 
@@ -74,7 +72,7 @@ Group scene_group(const std::string& name) {
   Group group{name, {}};
   View view;
   view.scene = name;
-  view.methods = portable_methods();
+  view.methods = all_methods();
   for (const shoal::PlacedCamera& camera : load_scene(view)->cameras) {
     view.camera = camera.name;
     view.name = name + "_" + camera.name;
@@ -91,7 +89,7 @@ View water_view(const std::vector<std::string>& words) {
     throw Error("water.list: '" + words[0] + "': expected NAME SCENE and pairs of option and value");
   view.name = words[0];
   view.scene = words[1];
-  view.methods = portable_methods();
+  view.methods = all_methods();
   for (std::size_t i = 2; i < words.size(); i += 2) {
     const std::string &option = words[i], &value = words[i + 1];
     if (option == "--camera") {

@@ -39,7 +39,7 @@ inline constexpr std::uint64_t kTriangles = 2000;
 // Throws shoal::Error where a list cannot be read.
 std::vector<std::string> group_names(const std::string& folder);
 
-// A group's views: a scene by all its cameras or as a line of water.list says, each by every portable method of the
+// A group's views: a scene by all its cameras or as a line of water.list says, each by every method of the
 // registry; or the lines of assets.list by the default method. Throws shoal::Error for a name of no group.
 Group make_group(const std::string& folder, const std::string& name);
 

@@ -91,8 +91,7 @@ Arguments parse_arguments(int count, char** texts) {
   arguments.settings.isa = shoal::best_isa();
   arguments.settings.digests = true;
   arguments.settings.aovs = (1u << static_cast<unsigned>(shoal::Aov::kCount)) - 1u;
-  for (const shoal::MethodInfo& method : shoal::method_infos())
-    if (method.portable) arguments.methods.emplace_back(method.name);
+  for (const shoal::MethodInfo& method : shoal::method_infos()) arguments.methods.emplace_back(method.name);
   for (int i = 1; i < count; ++i) {
     const std::string_view option = texts[i];
     if (option == "--list-isas") {

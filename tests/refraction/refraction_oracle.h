@@ -1,30 +1,23 @@
 // What every pixel must show, by brute force in double: its ray against every triangle, Snell's law at the water, flat
 // or with waves, the refracted (or totally reflected) ray against every triangle again. No acceleration, no clipping,
-// no raster.
+// no raster, and no function of the renderer: it reads the scene's plain data alone
+// (tests/structure/oracle_functions.sh).
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "../water/surface_oracle.h"
-#include "refraction/renderer.h"
-#include "water/prepare_surface.h"
-#include "water/valid_normal.h"
+#include "scene/hit_kind.h"
+#include "scene/scene.h"
+#include "tests/refraction/double_vector.h"
 
 namespace shoal_test {
 
-using namespace shoal;
-
 inline constexpr std::uint32_t kNothing = 0xFFFFFFFFu;
-
-inline Vec3d as_double(Vec3f v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
-inline double norm_of(Vec3d v) { return std::sqrt(dot(v, v)); }
-inline Vec3d unit_of(Vec3d v) { return v / norm_of(v); }
 
 // One pixel as the AOVs report it.
 struct OraclePixel {
@@ -67,12 +60,8 @@ class RefractionOracle {
     }
   }
 
-  // The bodies' surfaces at a time: waves' normals on the plane, or displaced where the body is.
-  void set_waves(double time_s) {
-    surfaces_.clear();
-    for (const WaterBody& body : scene_.waters)
-      surfaces_.push_back(prepare_surface(body.surface, time_s, plane_extent(body)));
-  }
+  // The surface of each body: waves' normals on the plane, or displaced where the body is. None set: all are flat.
+  void set_waves(std::vector<WaterSurface> surfaces) { surfaces_ = std::move(surfaces); }
 
   // The camera's ray through a point of the frame, in double from the camera itself.
   OraclePixel trace(const Camera& camera, int width_px, int height_px, double x_px, double y_px) const {
@@ -222,6 +211,41 @@ class RefractionOracle {
             std::sqrt(xx * xx + zz * zz + 2 * xz * xz)};
   }
 
+  // The normal that a flat plane can bear, from its definition: what it refracts leaves through the plane and what it
+  // reflects comes back, both by a thousandth or half of what the plane's own normal gives. An invalid direction is
+  // turned to the nearest valid one, and the normal is the one that gives that direction.
+  struct ValidNormal {
+    Vec3d normal;
+    bool bent;
+  };
+  static ValidNormal valid_normal_of(Vec3d d, Vec3d plane, Vec3d wave, double eta) {
+    const auto refracted = [&](Vec3d n, Vec3d& to) {
+      const double cosine = -dot(d, n), sin2 = eta * eta * (1.0 - cosine * cosine);
+      if (sin2 >= 1.0) return false;
+      to = d * eta + n * (eta * cosine - std::sqrt(1.0 - sin2));
+      return true;
+    };
+    const auto reflected = [&](Vec3d n) { return d - n * (2.0 * dot(d, n)); };
+    const auto turned = [](Vec3d v, Vec3d up, double least) {
+      return up * least + unit_of(v - up * dot(v, up)) * std::sqrt(1.0 - least * least);
+    };
+    const double back = std::min(1e-3, -0.5 * dot(d, plane));
+    Vec3d through_plane;
+    const double through = refracted(plane, through_plane) ? std::min(1e-3, -0.5 * dot(through_plane, plane)) : 1e-3;
+    Vec3d n = wave, to;
+    bool bent = false;
+    if (dot(d, n) >= 0.0) {
+      n = unit_of(n - d * dot(d, n)), bent = true;
+    } else if (refracted(n, to) && -dot(to, plane) < through) {
+      n = unit_of(d * eta - turned(to, -plane, through)), bent = true;
+      if (dot(d, n) > 0.0) n = -n;
+    }
+    if (dot(reflected(n), plane) < back) n = unit_of(turned(reflected(n), plane, back) - d), bent = true;
+    const bool fails = dot(d, n) >= 0.0 || (refracted(n, to) && -dot(to, plane) < 0.5 * through) ||
+                       dot(reflected(n), plane) < 0.5 * back;
+    return {fails ? plane : n, bent};
+  }
+
   // On through the surface, or back down from it.
   void follow(const WaterBody& body, Vec3d d, OraclePixel& out) const {
     const SurfaceNormal surface = normal_at(body, out.position);
@@ -230,13 +254,8 @@ class RefractionOracle {
     Vec3d n = surface.up * turn;
     const double ior = static_cast<double>(body.ior), eta = from_water ? ior : 1.0 / ior;
     if (surface_of(body) != nullptr && !moved) {
-      const auto narrow = [](Vec3d v) {
-        return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-      };
-      const Vec3f given = narrow(n), plane = body.normal * static_cast<float>(turn);
-      const Vec3f valid = valid_normal<float>(narrow(d), plane, given, static_cast<float>(eta));
-      out.bent = valid.x != given.x || valid.y != given.y || valid.z != given.z;
-      if (out.bent) n = unit_of(as_double(valid));
+      const ValidNormal valid = valid_normal_of(d, as_double(body.normal) * turn, n, eta);
+      n = valid.normal, out.bent = valid.bent;
     }
     const double cos_i = -dot(d, n), sin2_t = eta * eta * (1.0 - cos_i * cos_i);
     const bool total = sin2_t > 1.0;
@@ -268,33 +287,5 @@ class RefractionOracle {
   std::vector<Triangle> triangles_;
   std::vector<WaterSurface> surfaces_;  // empty: all flat
 };
-
-inline RenderScene built_in(const std::string& name, std::uint64_t triangles) {
-  for (const ProceduralScene& s : procedural_scenes())
-    if (name == s.name) return build_render_scene(s.make(triangles));
-  return {};
-}
-
-inline Camera camera_at(Vec3f eye, Vec3f target, double yfov) {
-  const Vec3d f = unit_of(as_double(target) - as_double(eye)), r = unit_of(cross(f, Vec3d{0, 1, 0})), u = cross(r, f);
-  const auto narrow = [](Vec3d v) {
-    return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-  };
-  Camera c;
-  c.position_world = eye;
-  c.right_world = narrow(r), c.up_world = narrow(u), c.forward_world = narrow(f);
-  c.tan_half_yfov = static_cast<float>(std::tan(0.5 * yfov));
-  return c;
-}
-
-inline const AovImage& image_of(const Frame& frame, Aov aov) {
-  for (const AovImage& image : frame.aovs)
-    if (image.aov == aov) return image;
-  throw std::runtime_error("no such AOV");
-}
-inline Vec3d vector_in(const AovImage& image, std::size_t pixel) {
-  return {static_cast<double>(image.floats[3 * pixel]), static_cast<double>(image.floats[3 * pixel + 1]),
-          static_cast<double>(image.floats[3 * pixel + 2])};
-}
 
 }  // namespace shoal_test

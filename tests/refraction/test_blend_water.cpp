@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "blend_scene.h"
+#include "oracle_scene.h"
 #include "refraction_oracle.h"
 
 using namespace shoal_test;

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "raster/bin.h"
 #include "refraction/field/floor.h"
+#include "oracle_scene.h"
 #include "refraction_oracle.h"
 
 using namespace shoal_test;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "oracle_scene.h"
 #include "refraction_oracle.h"
 
 using namespace shoal_test;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "blend_scene.h"
+#include "oracle_scene.h"
 #include "refraction_oracle.h"
 
 using namespace shoal_test;

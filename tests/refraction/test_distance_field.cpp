@@ -8,6 +8,7 @@
 
 #include "refraction/field/distance_field.h"
 #include "refraction/field/point_triangle.h"
+#include "oracle_scene.h"
 #include "refraction_oracle.h"
 
 using namespace shoal_test;

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "refraction/renderer.h"
+#include "oracle_scene.h"
 #include "refraction_oracle.h"
 
 using namespace shoal_test;

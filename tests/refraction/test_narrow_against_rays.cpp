@@ -1,5 +1,4 @@
-// The narrow phase against the ray tracer: Embree's own search over the same triangles, and paths that meet water
-// again.
+// The narrow phase against the ray tracer, which traces every ray from the eye on, and paths that cross water again.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <stdexcept>

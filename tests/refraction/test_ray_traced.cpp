@@ -7,6 +7,7 @@
 #include <string>
 
 #include "blend_scene.h"
+#include "oracle_scene.h"
 #include "refraction_oracle.h"
 
 using namespace shoal_test;
@@ -127,7 +128,7 @@ TEST_CASE("ray-traced: hit points under waves are those of rays in double", "[ra
   set_surface(scene, kind, 0.15f, geometry);
   for (WaterBody& body : scene.waters) body.surface.wavelength_m = kind == SurfaceKind::kPerlin ? 0.5f : 0.7f;
   RefractionOracle oracle(scene, true);
-  oracle.set_waves(1.0);
+  oracle.set_waves(surfaces_at(scene, 1.0));
   constexpr int kWidth = 60, kHeight = 40;
   const double height_bound =
       static_cast<double>(prepare_surface(scene.waters[0].surface, 1.0, plane_extent(scene.waters[0])).height_bound_m);

@@ -10,6 +10,7 @@
 #include "../raster/raster_driver.h"
 #include "refraction/passes/vertex_programs.h"
 #include "refraction/passes/water_region.h"
+#include "oracle_scene.h"
 #include "refraction_oracle.h"
 
 using namespace shoal_test;

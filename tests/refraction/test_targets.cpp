@@ -7,6 +7,7 @@
 #include "raster/geometry_view.h"
 #include "refraction/methods/kernels.h"
 #include "refraction/passes/water_region.h"
+#include "oracle_scene.h"
 #include "refraction_oracle.h"
 
 using namespace shoal_test;

@@ -65,7 +65,6 @@ while read -r file header kind; do
   else
     case $file:$header in
       core/wide/*:immintrin.h | core/wide/*:arm_neon.h) ;;
-      trace/embree_queries.cpp:embree3/rtcore.h) ;;
       core/float_mode.cpp:immintrin.h | core/float_mode.cpp:xmmintrin.h) ;;
       core/vec.h:glm/* | core/matrix.h:glm/*) ;;
       core/digest.cpp:xxhash.h | core/thread_pool.cpp:sched.h) ;;

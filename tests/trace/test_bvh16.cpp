@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "raster/geometry_view.h"
-#include "tests/refraction/refraction_oracle.h"
+#include "tests/refraction/double_vector.h"
 #include "trace/nearest_hit.h"
 
 using namespace shoal_test;
@@ -140,7 +140,7 @@ TEST_CASE("bvh16: the nearest of all triangles", "[trace]") {
     Soup soup(count);
     Bvh16 bvh;
     ThreadPool pool(count == 300 ? 1 : 2);
-    bvh.build(soup.geometry, soup.materials, count != 300, pool);
+    bvh.build(soup.geometry, soup.materials, Bvh16::Content::kOpaque, count != 300, pool);
     INFO(count << " triangles");
     REQUIRE(check_rays(soup, bvh, 40) > 400);
     // After everything has moved, by the refitted BVH.
@@ -161,7 +161,7 @@ TEST_CASE("bvh16: a bounded depth, however triangles lie", "[trace]") {
   }
   ThreadPool pool(2);
   Bvh16 bvh;
-  bvh.build(soup.geometry, soup.materials, false, pool);
+  bvh.build(soup.geometry, soup.materials, Bvh16::Content::kOpaque, false, pool);
   std::vector<int> height(bvh.nodes.size(), 1);
   std::size_t triangles = 0;
   for (std::size_t n = 0; n < bvh.nodes.size(); ++n)
@@ -183,7 +183,7 @@ TEST_CASE("bvh16: of nothing, and of what is blended", "[trace]") {
   const std::vector<DrawState> states = draw_states(soup.materials.materials);
   Bvh16 bvh;
   ThreadPool pool(1);
-  bvh.build(soup.geometry, soup.materials, true, pool);
+  bvh.build(soup.geometry, soup.materials, Bvh16::Content::kOpaque, true, pool);
   const ShadingView view = soup.view(states);
   const Ray<WideF> ray = {broadcast<WideF>(Vec3f{0, 0, 20}), broadcast<WideF>(Vec3f{0, 0, -1})};
   alignas(64) std::int32_t id[16];

@@ -1,10 +1,11 @@
-// The height of a prepared surface in double, by formulas other than the code's, and its slope by central differences.
+// The height of a prepared surface in double, by formulas of its own, and its slope by central differences. It reads the
+// surface's numbers and shares no function with the code.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 
-#include "water/surface.h"
+#include "water/surface_data.h"
 
 namespace surface_oracle {
 
@@ -12,7 +13,18 @@ using namespace shoal;
 
 inline constexpr double kTurn = 6.283185307179586;
 
-// A lattice point's gradient is the noise's own at that point, where the fades have no slope. Asked once a point.
+// A lattice point's gradient: one of sixteen unit vectors, 22.5 degrees apart, by a hash of the point's coordinates and
+// the seed. The hash is a part of the surface's definition, as a table of permutations would be.
+inline void lattice_gradient(std::int64_t x, std::int64_t z, std::int32_t seed, double& gx, double& gz) {
+  const auto wrap = [](std::int64_t v) { return static_cast<std::uint32_t>(static_cast<std::uint64_t>(v)); };
+  std::uint32_t h = ((wrap(x) * 0x27D4EB2Du) ^ static_cast<std::uint32_t>(seed)) ^ (wrap(z) * 0x165667B1u);
+  h *= 0x9E3779B9u;
+  h = ((h >> 15) ^ h) * 0x27D4EB2Du;
+  const double angle = kTurn * static_cast<double>(h >> 28) / 16.0;
+  gx = std::cos(angle), gz = std::sin(angle);
+}
+
+// The gradients of the last cell.
 struct LatticeCache {
   std::int64_t x = INT64_MIN, z = INT64_MIN;
   std::int32_t seed = 0;
@@ -30,12 +42,7 @@ inline double noise(double x, double z, std::int32_t cell_x, std::int32_t cell_z
   const double fx = std::floor(x), fz = std::floor(z);
   const std::int64_t ix = static_cast<std::int64_t>(fx) + cell_x, iz = static_cast<std::int64_t>(fz) + cell_z;
   if (cache.x != ix || cache.z != iz || cache.seed != seed) {
-    for (int c = 0; c < 4; ++c) {
-      const Noise<float> n = gradient_noise(0.0f, 0.0f, static_cast<std::int32_t>(ix + (c & 1)),
-                                            static_cast<std::int32_t>(iz + (c >> 1)), seed, cubic);
-      cache.gx[c] = static_cast<double>(n.dx);
-      cache.gz[c] = static_cast<double>(n.dz);
-    }
+    for (int c = 0; c < 4; ++c) lattice_gradient(ix + (c & 1), iz + (c >> 1), seed, cache.gx[c], cache.gz[c]);
     cache.x = ix, cache.z = iz, cache.seed = seed;
   }
   double sum = 0;

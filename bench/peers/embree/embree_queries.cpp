@@ -1,8 +1,7 @@
-// Ray queries by Embree 3: robust traversal, packets of sixteen.
-//
-// Triangles come in four kinds, one Embree geometry each, over the scene's own vertices: the
-// geometry then decides which tests a filter makes, and most triangles need none. Primitive numbers keep the scene's
-// order within a kind. Blended triangles, which rays go through, are an Embree scene of their own.
+// Triangles come in kinds, one Embree geometry each, over the scene's own vertices: the geometry then decides which
+// tests a filter makes, and most triangles need none. Primitive numbers keep the scene's order within a kind.
+#include "bench/peers/embree/embree_queries.h"
+
 #include <embree3/rtcore.h>
 
 #include <cstddef>
@@ -11,7 +10,6 @@
 
 #include "core/error.h"
 #include "raster/front_end.h"
-#include "trace/ray_queries.h"
 
 namespace shoal {
 
@@ -33,8 +31,6 @@ struct KindTriangles {
 struct QueryContext {
   RTCIntersectContext rtc;  // first: Embree hands it back
   const RayPacket* rays;
-  VisitHits visit = nullptr;
-  void* visitor = nullptr;
 };
 
 [[noreturn]] void fail(RTCError error) {
@@ -101,62 +97,43 @@ void filter_blocked(const RTCFilterFunctionNArguments* args) {
   refuse(args, lanes, kind.kind.casts ? cut_out(args, lanes, lanes.bits) : lanes.bits);
 }
 
-// Reports each hit and refuses it, so that the next one is found.
-void filter_blended(const RTCFilterFunctionNArguments* args) {
-  const QueryContext& context = *reinterpret_cast<const QueryContext*>(args->context);
-  const KindTriangles& kind = *static_cast<const KindTriangles*>(args->geometryUserPtr);
-  const FilterLanes lanes = lanes_of(args);
-  std::int32_t id[16] = {};
-  for (int lane = 0; lane < 16; ++lane)
-    if (((lanes.bits >> lane) & 1u) != 0)
-      id[lane] = kind.id[RTCHitN_primID(args->hit, args->N, static_cast<unsigned>(lanes.place[lane]))];
-  context.visit(context.visitor, *context.rays, id, lanes.bits);
-  refuse(args, lanes, lanes.bits);
-}
+}  // namespace
 
-class EmbreeQueries final : public RayQueries {
- public:
-  EmbreeQueries(const RenderScene& scene, int threads)
-      : device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {
+struct EmbreeQueries::Impl {
+  Impl(const RenderScene& scene, int threads, bool moves_)
+      : device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())), moves(moves_) {
     if (device_ == nullptr) fail(rtcGetDeviceError(nullptr));
     sort(scene);
-    scene_ = new_scene(scene.moves());
+    scene_ = rtcNewScene(device_);
+    rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
+                                                        (moves ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE)));
+    rtcSetSceneBuildQuality(scene_, moves ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
     for (KindTriangles& kind : kinds_) {
       attach(scene.geometry, kind, scene_, static_cast<unsigned>(&kind - kinds_.data()));
       if (kind.kind.one_sided || kind.kind.alpha_tested)
         rtcSetGeometryIntersectFilterFunction(kind.geometry, &filter_first_hit);
       if (!kind.kind.casts || kind.kind.alpha_tested)
         rtcSetGeometryOccludedFilterFunction(kind.geometry, &filter_blocked);
+      if (moves) rtcSetGeometryBuildQuality(kind.geometry, RTC_BUILD_QUALITY_REFIT);
       rtcCommitGeometry(kind.geometry);
     }
     rtcCommitScene(scene_);
-    if (!blended_.id.empty()) {
-      blended_scene_ = new_scene(scene.moves());
-      attach(scene.geometry, blended_, blended_scene_, 0);
-      rtcSetGeometryIntersectFilterFunction(blended_.geometry, &filter_blended);
-      rtcCommitGeometry(blended_.geometry);
-      rtcCommitScene(blended_scene_);
-    }
     check();
   }
-  ~EmbreeQueries() override {
+  ~Impl() {
     for (KindTriangles& kind : kinds_) rtcReleaseGeometry(kind.geometry);
     rtcReleaseScene(scene_);
-    if (blended_scene_ != nullptr) {
-      rtcReleaseGeometry(blended_.geometry);
-      rtcReleaseScene(blended_scene_);
-    }
     rtcReleaseDevice(device_);
   }
-  EmbreeQueries(const EmbreeQueries&) = delete;
-  EmbreeQueries& operator=(const EmbreeQueries&) = delete;
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
 
-  void first_hits(RayPacket& rays, std::uint32_t lanes) const override {
+  void first_hits(RayPacket& rays, std::uint32_t lanes, bool coherent) const {
     RTCRayHit16 query;
     alignas(64) int valid[16];
     copy(rays, lanes, query.ray, valid);
     for (int i = 0; i < 16; ++i) query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    QueryContext context = context_of(rays);
+    QueryContext context = context_of(rays, coherent);
     rtcIntersect16(valid, scene_, &context.rtc, &query);
     for (int i = 0; i < 16; ++i) {
       const unsigned kind = query.hit.geomID[i];
@@ -164,22 +141,25 @@ class EmbreeQueries final : public RayQueries {
     }
   }
 
-  void each_blended(const RayPacket& rays, std::uint32_t lanes, VisitHits visit, void* visitor) const override {
-    if (blended_scene_ == nullptr) return;
-    RTCRayHit16 query;
-    alignas(64) int valid[16];
-    copy(rays, lanes, query.ray, valid);
-    for (int i = 0; i < 16; ++i) query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    QueryContext context = context_of(rays);
-    context.visit = visit, context.visitor = visitor;
-    rtcIntersect16(valid, blended_scene_, &context.rtc, &query);
+  void first_hit_of_each(RayPacket& rays, std::uint32_t lanes) const {
+    QueryContext context = context_of(rays, false);
+    for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+      const int i = __builtin_ctz(left);
+      RTCRayHit query;
+      query.ray = {rays.origin_x[i],    rays.origin_y[i],    rays.origin_z[i],         rays.t_near[i],
+                   rays.direction_x[i], rays.direction_y[i], rays.direction_z[i],      0.0f,
+                   rays.t_far[i],       0xFFFFFFFFu,         static_cast<unsigned>(i), 0};
+      query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect1(scene_, &context.rtc, &query);
+      rays.id[i] = query.hit.geomID != RTC_INVALID_GEOMETRY_ID ? kinds_[query.hit.geomID].id[query.hit.primID] : kNoId;
+    }
   }
 
-  std::uint32_t blocked(const RayPacket& rays, std::uint32_t lanes) const override {
+  std::uint32_t blocked(const RayPacket& rays, std::uint32_t lanes) const {
     RTCRay16 query;
     alignas(64) int valid[16];
     copy(rays, lanes, query, valid);
-    QueryContext context = context_of(rays);
+    QueryContext context = context_of(rays, true);
     rtcOccluded16(valid, scene_, &context.rtc, &query);
     std::uint32_t hit = 0;
     // Embree marks them by a far end of minus infinity.
@@ -188,33 +168,19 @@ class EmbreeQueries final : public RayQueries {
     return hit;
   }
 
-  void update() override {
+  void refit() {
     for (KindTriangles& kind : kinds_) {
       rtcUpdateGeometryBuffer(kind.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
       rtcCommitGeometry(kind.geometry);
     }
     rtcCommitScene(scene_);
-    if (blended_scene_ != nullptr) {
-      rtcUpdateGeometryBuffer(blended_.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
-      rtcCommitGeometry(blended_.geometry);
-      rtcCommitScene(blended_scene_);
-    }
     check();
   }
 
- private:
-  RTCScene new_scene(bool moves) const {
-    const RTCScene made = rtcNewScene(device_);
-    const RTCSceneFlags dynamic = moves ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE;
-    rtcSetSceneFlags(made, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | dynamic));
-    rtcSetSceneBuildQuality(made, moves ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
-    return made;
-  }
-
-  static QueryContext context_of(const RayPacket& rays) {
+  static QueryContext context_of(const RayPacket& rays, bool coherent) {
     QueryContext context;
     rtcInitIntersectContext(&context.rtc);
-    context.rtc.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.rtc.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     context.rays = &rays;
     return context;
   }
@@ -236,10 +202,8 @@ class EmbreeQueries final : public RayQueries {
     for (const Drawable& drawable : scene.geometry.drawables) {
       const Material& material = scene.materials.materials[drawable.material];
       if (!drawable.drawn) continue;
-      KindTriangles& to =
-          material.alpha_mode == AlphaMode::kBlend
-              ? blended_
-              : kind_of({!material.double_sided, material.alpha_mode == AlphaMode::kMask, !material.unlit});
+      if (material.alpha_mode == AlphaMode::kBlend) continue;
+      KindTriangles& to = kind_of({!material.double_sided, material.alpha_mode == AlphaMode::kMask, !material.unlit});
       for (std::uint32_t k = 0; k < drawable.triangle_count; ++k) {
         const std::uint32_t id = drawable.first_triangle + k;
         const Geometry::TriangleRecord& record = scene.geometry.triangles[id];
@@ -273,16 +237,23 @@ class EmbreeQueries final : public RayQueries {
   }
 
   RTCDevice device_ = nullptr;
+  bool moves;
   RTCScene scene_ = nullptr;
   std::vector<KindTriangles> kinds_;
-  RTCScene blended_scene_ = nullptr;
-  KindTriangles blended_{};
 };
 
-}  // namespace
-
-std::unique_ptr<RayQueries> make_ray_queries(const RenderScene& scene, int threads) {
-  return std::make_unique<EmbreeQueries>(scene, threads);
+EmbreeQueries::EmbreeQueries(const RenderScene& scene, int threads, bool moves)
+    : impl_(std::make_unique<Impl>(scene, threads, moves)) {}
+EmbreeQueries::~EmbreeQueries() = default;
+void EmbreeQueries::first_hits(RayPacket& rays, std::uint32_t lanes, bool coherent) const {
+  impl_->first_hits(rays, lanes, coherent);
 }
+void EmbreeQueries::first_hit_of_each(RayPacket& rays, std::uint32_t lanes) const {
+  impl_->first_hit_of_each(rays, lanes);
+}
+std::uint32_t EmbreeQueries::blocked(const RayPacket& rays, std::uint32_t lanes) const {
+  return impl_->blocked(rays, lanes);
+}
+void EmbreeQueries::refit() { impl_->refit(); }
 
 }  // namespace shoal
