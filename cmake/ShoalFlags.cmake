@@ -38,6 +38,20 @@ if(SHOAL_FUZZ)
   target_compile_options(shoal_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
+# Headers that most files of a target include are parsed once (shoal_precompile). What a file needs it includes itself: with
+# -DSHOAL_PRECOMPILE=OFF everything builds the same.
+option(SHOAL_PRECOMPILE "Precompile the headers that most files of a target include" ON)
+
+#   shoal_precompile(<target> <header>...)
+function(shoal_precompile target)
+  if(SHOAL_PRECOMPILE)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
+
+# Vectors never cross a library boundary by value, so GCC's note on their calling convention is noise.
+target_compile_options(shoal_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
+
 # GLM's conversions that lose digits or components (double to float, vec4 to vec3) are written out: Vec3f(v).
 target_compile_definitions(shoal_flags INTERFACE GLM_FORCE_EXPLICIT_CTOR)
 

@@ -36,16 +36,45 @@ std::uint32_t hash_lattice(std::int32_t x, std::int32_t y, std::uint32_t seed) {
   return h ^ (h >> 16);
 }
 
-float value_noise(float x, float y, std::int32_t period, std::uint32_t seed) {
-  const float fx = std::floor(x), fy = std::floor(y);
-  const auto wrap = [period](int i) {
+namespace {
+
+// The greatest integer not above x, |x| < 2^31, without a call.
+std::int32_t floor_of(float x) {
+  const std::int32_t i = static_cast<std::int32_t>(x);
+  return static_cast<float>(i) > x ? i - 1 : i;
+}
+
+// The values at the corners of the lattice cell that a noise was last evaluated in. Textures are painted row by row,
+// and a cell is many texels wide, so most evaluations find their corners here instead of computing four hashes.
+struct LatticeCell {
+  std::int32_t x = 0, y = 0, period = -1;
+  std::uint32_t seed = 0;
+  float corner[4] = {};
+};
+
+const LatticeCell& lattice_cell(std::int32_t x, std::int32_t y, std::int32_t period, std::uint32_t seed) {
+  thread_local std::array<LatticeCell, 64> kept;
+  LatticeCell& cell = kept[seed * 0x9E3779B1u >> 26];
+  if (cell.x == x && cell.y == y && cell.period == period && cell.seed == seed) return cell;
+  const auto wrap = [period](std::int32_t i) {
     return period > 0 && (i < 0 || i >= period) ? ((i % period) + period) % period : i;
   };
-  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
-  const int x0 = wrap(ix), x1 = wrap(ix + 1), y0 = wrap(iy), y1 = wrap(iy + 1);
-  const float sx = ramp(0, 1, x - fx), sy = ramp(0, 1, y - fy);
-  return lerp(lerp(unit_hash(x0, y0, seed), unit_hash(x1, y0, seed), sx),
-              lerp(unit_hash(x0, y1, seed), unit_hash(x1, y1, seed), sx), sy);
+  const std::int32_t x0 = wrap(x), x1 = wrap(x + 1), y0 = wrap(y), y1 = wrap(y + 1);
+  cell = {x,
+          y,
+          period,
+          seed,
+          {unit_hash(x0, y0, seed), unit_hash(x1, y0, seed), unit_hash(x0, y1, seed), unit_hash(x1, y1, seed)}};
+  return cell;
+}
+
+}  // namespace
+
+float value_noise(float x, float y, std::int32_t period, std::uint32_t seed) {
+  const std::int32_t ix = floor_of(x), iy = floor_of(y);
+  const float sx = ramp(0, 1, x - static_cast<float>(ix)), sy = ramp(0, 1, y - static_cast<float>(iy));
+  const LatticeCell& cell = lattice_cell(ix, iy, period, seed);
+  return lerp(lerp(cell.corner[0], cell.corner[1], sx), lerp(cell.corner[2], cell.corner[3], sx), sy);
 }
 
 float fractal_noise(float x, float y, std::int32_t period, int octaves, std::uint32_t seed) {

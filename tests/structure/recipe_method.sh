@@ -36,7 +36,7 @@ rm -rf "$records"
 if [[ -f $main/build.ninja ]]; then perl "$here/reuse_objects.pl" --record "$main" "$PWD" "$build" "$copy" "$records" || exit 1; fi
 launcher=$(sed -n 's/^CMAKE_CXX_COMPILER_LAUNCHER:[A-Z]*=//p' "$main/CMakeCache.txt")
 launcher="perl;$here/reuse_objects.pl;$records${launcher:+;$launcher}"
-cmake -S "$copy" -B "$build" -DSHOAL_ISAS="$isa" -DSHOAL_WERROR=ON -DSHOAL_TESTS=OFF -DSHOAL_BENCH=OFF \
+cmake -S "$copy" -B "$build" -DSHOAL_ISAS="$isa" -DSHOAL_WERROR=ON -DSHOAL_TESTS=OFF -DSHOAL_BENCH=OFF -DSHOAL_PRECOMPILE=OFF \
   -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" "$@" >"$folder/configure.log" 2>&1 || { tail -30 "$folder/configure.log"; exit 1; }
 compile before
 rm -rf "$records"  # what the recipe compiles is compiled

@@ -7,8 +7,9 @@
 #       a compiler launcher for COPY_BUILD
 #
 # The launcher copies the object that has the same path in BUILD, where the commands are equal but for the folders, and
-# compiles otherwise. Recorded are objects that are newer than every file that they depend on. Two kinds of flags may
-# differ: -Werror, and the list of instruction sets (-DSHOAL_BUILDS_...) where none of the object's files names it.
+# compiles otherwise. Recorded are objects that are newer than every file that they depend on. Three kinds of flags may
+# differ: -Werror, those of precompiled headers, which change no object, and the list of instruction sets
+# (-DSHOAL_BUILDS_...) where none of the object's files names it.
 # Where the folder RECORDS is gone the launcher compiles. The caller sees to it that the files are equal.
 use strict;
 use warnings;
@@ -39,8 +40,8 @@ sub comparable {
   my @kept;
   while (@words) {
     my $word = shift @words;
-    if ($word eq "-MT" || $word eq "-MF") { shift @words; next }
-    next if $word eq "-MD" || $word eq "-Werror" || (!$names_isas && $word =~ /^-DSHOAL_BUILDS_/);
+    if ($word eq "-MT" || $word eq "-MF" || $word eq "-include") { shift @words; next }
+    next if $word eq "-Winvalid-pch" || $word eq "-MD" || $word eq "-Werror" || (!$names_isas && $word =~ /^-DSHOAL_BUILDS_/);
     push @kept, $word =~ s{\Q$build\E}{<build>}gr =~ s{\Q$source\E}{<source>}gr;
   }
   return join "\t", @kept;
@@ -74,7 +75,8 @@ sub record {
       $names_isas{$file} //= slurp($file) =~ /SHOAL_BUILDS_/ ? 1 : 0;
       $isas ||= $names_isas{$file};
     }
-    my @written = map { index($_, "$source/") == 0 ? "<source>" . substr($_, length $source) : $_ } @files;
+    my @written = map { index($_, "$source/") == 0 ? "<source>" . substr($_, length $source) : $_ }
+                  grep { !m{/cmake_pch\.hxx} } @files;
     spill(record_of($records, $object), "$build/$object\n$isas\n",
           comparable($build, $source, $isas, @{$words{$object}}), "\n", map { "$_\n" } @written);
     ++$count;
