@@ -1,6 +1,11 @@
 // Traversal of a BVH by sixteen rays: one algorithm for every query. Rays that advance together go as one packet
-// frustum, the others one by one, each against sixteen boxes or triangles at once. Either way meets the same triangles:
-// which way a ray goes changes no result (tests/trace/test_bvh16.cpp).
+// frustum, the others one by one, each against sixteen boxes or triangles at once.
+//
+// A ray hits a triangle where the triangle test says so (raster/triangle_test.h) and the ray enters the triangle's own
+// box before the hit. The second condition never fails for a hit away from the triangle's edges. It makes the result
+// independent of the hierarchy: a node's box holds its triangles' boxes, and the box test is monotone in rounding, so a
+// ray that enters a triangle's box enters the boxes of all nodes above it. So neither the tree, nor the order of the
+// traversal, nor the packets change a hit (tests/trace/test_against_embree.cpp compares packets with single rays).
 #pragma once
 
 #include "raster/triangle_test.h"
@@ -67,31 +72,24 @@ class Traversal {
   void run_one(int lane) {
     const auto of = [&](int k) SHOAL_LAMBDA { return ray_of_[k][lane]; };
     const Ray<WideF> one = {broadcast<WideF>(Vec3f{of(0), of(1), of(2)}), broadcast<WideF>(Vec3f{of(3), of(4), of(5)})};
-    const Vec3<WideF> inverse = broadcast<WideF>(Vec3f{of(6), of(7), of(8)});
-    const bool down[3] = {of(6) < 0.0f, of(7) < 0.0f, of(8) < 0.0f};
     float reach = extract(query_.t, lane);
+    if (bvh_.nodes.size() == 0) return;
     stack_size_ = 0;
     std::int32_t at = static_cast<std::int32_t>(bvh_.nodes.size() - 1);
     for (;;) {
       if (at < 0) {
-        test_ray(static_cast<std::size_t>(~at), one, lane);
+        test_leaf_by_ray(static_cast<std::size_t>(~at), one, lane);
         reach = extract(query_.t, lane);
       } else {
         const Bvh16::Node& node = bvh_.nodes[static_cast<std::size_t>(at)];
-        WideF enter(0.0f), leave(reach);
-        const auto slab = [&](int a, WideF origin, WideF inv) SHOAL_LAMBDA {
-          const WideF first = WideF::load((down[a] ? node.boxes.hi : node.boxes.lo)[a]),
-                      last = WideF::load((down[a] ? node.boxes.lo : node.boxes.hi)[a]);
-          enter = max(enter, (first - origin) * inv), leave = min(leave, (last - origin) * inv);
-        };
-        slab(0, one.origin_world.x, inverse.x), slab(1, one.origin_world.y, inverse.y);
-        slab(2, one.origin_world.z, inverse.z);
-        push(static_cast<std::size_t>(at), to_bits(enter <= leave * WideF(kBoxSlack)), enter);
+        WideF enter;
+        const WideM entered = boxes_entered(node.boxes, lane, WideF(reach), enter);
+        push(static_cast<std::size_t>(at), to_bits(entered), enter);
       }
       do {
         if (stack_size_ == 0) return;
         --stack_size_;
-      } while (enters_[stack_size_] > reach);
+      } while (enters_[stack_size_] > reach * kBoxSlack);
       at = bvh_.nodes[parents_[stack_size_] >> 4].child[parents_[stack_size_] & 15u];
     }
   }
@@ -112,7 +110,7 @@ class Traversal {
       if (enters_[stack_size_] > reach_) continue;
       const Bvh16::Node& node = bvh_.nodes[parents_[stack_size_] >> 4];
       const std::size_t place = parents_[stack_size_] & 15u;
-      const WideM passing = rays_through(node.boxes, place);
+      const WideM passing = lanes_ & rays_entering(node.boxes, place, query_.t);
       if (none(passing)) continue;
       const std::int32_t child = node.child[place];
       if (child < 0)
@@ -122,18 +120,32 @@ class Traversal {
     }
   }
 
-  // The lanes that enter one box before their ends.
-  WideM rays_through(const Bvh16::Boxes& boxes, std::size_t place) const {
-    WideF enter(0.0f), leave = query_.t;
+  // The lanes that enter one box before `end`, in lengths of their directions.
+  SHOAL_INLINE WideM rays_entering(const Bvh16::Boxes& boxes, std::size_t place, WideF end) const {
+    WideF enter(0.0f), leave = end;
     const auto slab = [&](int a, WideF origin, WideF inv) SHOAL_LAMBDA {
       const WideF x = (WideF(boxes.lo[a][place]) - origin) * inv, y = (WideF(boxes.hi[a][place]) - origin) * inv;
       enter = max(enter, min(x, y)), leave = min(leave, max(x, y));
     };
     slab(0, ray_.origin_world.x, inverse_.x), slab(1, ray_.origin_world.y, inverse_.y),
         slab(2, ray_.origin_world.z, inverse_.z);
-    return lanes_ & (enter <= leave * WideF(kBoxSlack));
+    return enter <= leave * WideF(kBoxSlack);
   }
-  void find_reach(const PacketFrustum& frustum) { reach_ = max_of(query_.t * frustum.per_t, lanes_) * 1.000001f; }
+  // The same for one ray and sixteen boxes, bit for bit.
+  //   end    of each box
+  //   enter  where each one is entered
+  SHOAL_INLINE WideM boxes_entered(const Bvh16::Boxes& boxes, int lane, WideF end, WideF& enter) const {
+    enter = WideF(0.0f);
+    WideF leave = end;
+    for (int a = 0; a < 3; ++a) {
+      const bool down = ray_of_[a + 6][lane] < 0.0f;
+      const WideF origin(ray_of_[a][lane]), inv(ray_of_[a + 6][lane]);
+      enter = max(enter, (WideF::load((down ? boxes.hi : boxes.lo)[a]) - origin) * inv);
+      leave = min(leave, (WideF::load((down ? boxes.lo : boxes.hi)[a]) - origin) * inv);
+    }
+    return enter <= leave * WideF(kBoxSlack);
+  }
+  void find_reach(const PacketFrustum& frustum) { reach_ = max_of(query_.t * frustum.per_t, lanes_) * 1.000003f; }
 
   // Pushes the children that the frustum enters, the nearest last.
   void open(const PacketFrustum& frustum, std::size_t at) {
@@ -187,44 +199,54 @@ class Traversal {
     const std::uint32_t rays = to_bits(passing);
     if (__builtin_popcount(in_frustum) <= __builtin_popcount(rays)) {
       for (std::uint32_t left = in_frustum; left != 0; left &= left - 1)
-        test_triangle_of(leaf, corners, __builtin_ctz(left));
+        test_triangle_of(leaf, corners, boxes, __builtin_ctz(left));
     } else {
       for (std::uint32_t left = rays; left != 0; left &= left - 1) {
         const int lane = __builtin_ctz(left);
         const auto of = [&](int k) SHOAL_LAMBDA { return ray_of_[k][lane]; };
-        test_ray(leaf, corners, in_frustum,
+        test_ray(leaf, corners, &boxes, in_frustum,
                  {broadcast<WideF>(Vec3f{of(0), of(1), of(2)}), broadcast<WideF>(Vec3f{of(3), of(4), of(5)})}, lane);
       }
     }
     find_reach(frustum);
   }
   // One triangle against all rays.
-  SHOAL_INLINE void test_triangle_of(const LeafView& leaf, const Bvh16::Corners& corners, int k) {
+  SHOAL_INLINE void test_triangle_of(const LeafView& leaf, const Bvh16::Corners& corners, const Bvh16::Boxes& boxes,
+                                     int k) {
     const auto vector = [k](const float(*v)[Bvh16::kWidth]) SHOAL_LAMBDA { return Vec3f{v[0][k], v[1][k], v[2][k]}; };
     const Vec3f e1 = vector(corners.e1), e2 = vector(corners.e2);
-    const TriangleTest test =
+    TriangleTest test =
         test_triangle(ray_, broadcast<WideF>(vector(corners.p0)), broadcast<WideF>(e1), broadcast<WideF>(e2), lanes_);
-    if (any(test.inside & (test.t <= query_.t))) query_.hit_triangle(leaf, k, cross(e1, e2), test);
+    test.inside = test.inside & (test.t <= query_.t);
+    if (none(test.inside)) return;
+    test.inside = test.inside & rays_entering(boxes, static_cast<std::size_t>(k), test.t);
+    if (any(test.inside)) query_.hit_triangle(leaf, k, cross(e1, e2), test);
   }
   // One ray against a leaf's triangles.
-  SHOAL_INLINE void test_ray(const LeafView& leaf, const Bvh16::Corners& corners, std::uint32_t triangles,
-                             const Ray<WideF>& one, int lane) {
+  //   boxes  of the triangles; null: they are found where the ray hits any
+  SHOAL_INLINE void test_ray(const LeafView& leaf, const Bvh16::Corners& corners, const Bvh16::Boxes* boxes,
+                             std::uint32_t triangles, const Ray<WideF>& one, int lane) {
     const auto vector = [](const float(*v)[Bvh16::kWidth]) SHOAL_LAMBDA {
       return Vec3<WideF>{WideF::load(v[0]), WideF::load(v[1]), WideF::load(v[2])};
     };
     const Vec3<WideF> e1 = vector(corners.e1), e2 = vector(corners.e2);
     const TriangleTest test = test_triangle(one, vector(corners.p0), e1, e2, mask_from_bits(triangles));
-    const std::uint32_t hit = to_bits(test.inside & (test.t <= WideF(extract(query_.t, lane))));
-    if (hit == 0) return;
+    WideM inside = test.inside & (test.t <= WideF(extract(query_.t, lane)));
+    if (none(inside)) return;
+    Bvh16::Boxes found;
+    if (boxes == nullptr) find_boxes(corners, found), boxes = &found;
+    WideF enter;
+    inside = inside & boxes_entered(*boxes, lane, test.t, enter);
+    if (none(inside)) return;
     alignas(64) float t[Bvh16::kWidth];
     test.t.store(t);
     const std::uint32_t facing = to_bits(dot(one.direction_world, cross(e1, e2)) < WideF(0.0f));
-    query_.hit_ray(lane, leaf, facing, t, hit);
+    query_.hit_ray(lane, leaf, facing, t, to_bits(inside));
   }
-  void test_ray(std::size_t at, const Ray<WideF>& one, int lane) {
+  void test_leaf_by_ray(std::size_t at, const Ray<WideF>& one, int lane) {
     const Bvh16::Kinds kinds = bvh_.kinds[at];
     Bvh16::Corners read;
-    test_ray({bvh_.leaves[at], kinds}, corners_of(at, read), query_.wanted(kinds), one, lane);
+    test_ray({bvh_.leaves[at], kinds}, corners_of(at, read), nullptr, query_.wanted(kinds), one, lane);
   }
 
   const Bvh16& bvh_;

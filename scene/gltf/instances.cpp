@@ -45,7 +45,7 @@ std::vector<LocalTransform> read_instances(Document& document, const tinygltf::N
   const auto rotations = read_part(document, attributes, "ROTATION", TINYGLTF_TYPE_VEC4, 4, count, where);
   const auto scales = read_part(document, attributes, "SCALE", TINYGLTF_TYPE_VEC3, 3, count, where);
   if (count == 0)
-    warn(document, std::string(kName) + " without TRANSLATION, ROTATION and SCALE is not read: drawn once");
+    warn(document, std::string(kName).append(" without TRANSLATION, ROTATION and SCALE is not read: drawn once"));
   charge(document, count * (sizeof(LocalTransform) + sizeof(shoal::Node) + node.name.size()), where);
   std::vector<LocalTransform> instances(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < instances.size(); ++i) {

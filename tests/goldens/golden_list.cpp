@@ -65,6 +65,7 @@ void finish(View& view) {
   const auto end = std::to_chars(time.data(), time.data() + time.size(), view.time_s).ptr;
   view.arguments += " --time " + std::string(time.data(), end);
   for (const std::string& water : view.water) view.arguments += " --set " + water;
+  if (view.traced_shadows) view.arguments += " --shadows rays";
   view.arguments += " --size " + std::to_string(view.width_px) + "x" + std::to_string(view.height_px);
 }
 
@@ -82,7 +83,7 @@ Group scene_group(const std::string& name) {
   return group;
 }
 
-// NAME SCENE [--camera NAME] [--time S] [--set KEY=VALUE]...
+// NAME SCENE [--camera NAME] [--time S] [--set KEY=VALUE]... [--shadows rays]
 View water_view(const std::vector<std::string>& words) {
   View view;
   if (words.size() < 2 || words.size() % 2 != 0)
@@ -98,8 +99,10 @@ View water_view(const std::vector<std::string>& words) {
       view.time_s = parse_number(value);
     } else if (option == "--set") {
       view.water.push_back(value);
+    } else if (option == "--shadows" && value == "rays") {
+      view.traced_shadows = true;
     } else {
-      throw Error("water.list: '" + option + "' is not known; expected --camera, --time or --set");
+      throw Error("water.list: '" + option + "' is not known; expected --camera, --time, --set or --shadows rays");
     }
   }
   finish(view);

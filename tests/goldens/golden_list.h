@@ -18,6 +18,7 @@ struct View {
   std::string camera;           // its name
   double time_s = 0;
   std::vector<std::string> water;  // KEY=VALUE of the water's surface, as `shoal render --set` takes them
+  bool traced_shadows = false;     // --shadows rays
   int width_px = 160, height_px = 90;
   std::vector<std::string> methods;
   std::string arguments;  // of `shoal render`: everything but the method

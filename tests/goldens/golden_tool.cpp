@@ -166,6 +166,7 @@ class Check {
       settings.height_px = views.front()->height_px;
       settings.isa = shoal::supported_isas().front();
       settings.digests = true;
+      if (views.front()->traced_shadows) settings.shadows = shoal::Shadows::kRays;
       std::unique_ptr<shoal::Renderer> renderer;
       try {
         renderer = std::make_unique<shoal::Renderer>(scene, settings);

@@ -6,8 +6,8 @@
 //   digest_tool --list-isas
 //
 // Without --scene, --camera or --method: `pool`, `box` and `pond` by all of them, but for methods other than the
-// default `box` alone and the first camera of `pond`, whose water moves and has a shore. A line: scene camera method
-// stage digest.
+// default `box` alone and the first camera of `pond`, whose water moves and has a shore; and the first camera of `pool`
+// by the default method and the reference with shadows by rays. A line: scene camera method stage digest.
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
@@ -130,9 +130,22 @@ void print_frame(const std::string& prefix, const shoal::Frame& frame) {
   std::printf("%s picture %s\n", prefix.c_str(), shoal::picture_digest(frame).c_str());
 }
 
+// A frame with shadows by rays.
+void run_traced_shadows(const Arguments& arguments, const shoal::RenderScene& scene, const std::string& method) {
+  shoal::FrameSettings settings = arguments.settings;
+  settings.method = method;
+  settings.shadows = shoal::Shadows::kRays;
+  if (!arguments.sized) settings.width_px = 144, settings.height_px = 80;
+  shoal::Frame frame;
+  shoal::Renderer(scene, settings).render(scene.cameras.front().camera, arguments.time_s, frame);
+  print_frame("pool shadow-rays " + method, frame);
+}
+
 void run(const Arguments& arguments) {
   for (const std::string& scene_name : arguments.scenes) {
     const shoal::RenderScene scene = shoal::build_render_scene(find_scene(scene_name).make(arguments.triangles));
+    if (scene_name == "pool" && arguments.methods.size() > 1)
+      for (const char* method : {"two-phase", "ray-traced"}) run_traced_shadows(arguments, scene, method);
     for (const std::string& method : arguments.methods) {
       // All methods on the small scene, and a look at water that moves; the others show the default one what they hold.
       const bool all_cameras =

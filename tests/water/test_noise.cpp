@@ -5,6 +5,7 @@
 #include <random>
 
 #include "surface_oracle.h"
+#include "water/surface.h"
 
 namespace {
 

@@ -8,6 +8,7 @@
 
 #include "surface_cases.h"
 #include "surface_oracle.h"
+#include "water/surface.h"
 
 namespace {
 
