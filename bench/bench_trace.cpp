@@ -118,14 +118,14 @@ Traced& traced(const TracedScene& of) {
 // Runs `trace(const RayBlock&)` over all rays on the pool.
 template <class Trace>
 void run_rays(benchmark::State& state, Traced& scene, const std::vector<RayBlock>& rays, Trace trace) {
-  const std::size_t chunks = (rays.size() + kPacketsAtATime - 1) / kPacketsAtATime;
-  std::vector<std::uint64_t> sums(chunks);
+  const std::size_t groups = (rays.size() + kPacketsAtATime - 1) / kPacketsAtATime;
+  std::vector<std::uint64_t> sums(groups);
   for (auto _ : state) {
-    scene.pool.for_each(chunks, [&](std::size_t chunk, int) {
+    scene.pool.for_each(groups, [&](std::size_t group, int) {
       std::uint64_t sum = 0;
-      const std::size_t end = std::min(rays.size(), (chunk + 1) * kPacketsAtATime);
-      for (std::size_t i = chunk * kPacketsAtATime; i < end; ++i) sum += trace(rays[i]);
-      sums[chunk] = sum;
+      const std::size_t end = std::min(rays.size(), (group + 1) * kPacketsAtATime);
+      for (std::size_t i = group * kPacketsAtATime; i < end; ++i) sum += trace(rays[i]);
+      sums[group] = sum;
     });
     benchmark::ClobberMemory();
   }

@@ -13,6 +13,11 @@ fi
 root=$(dirname "${BASH_SOURCE[0]}")/../..
 while read -r asset camera time; do
   echo "$asset $camera $time"
-  "$shoal" render "$root/data/assets/$asset.glb" --camera "$camera" --time "$time" --method two-phase --size 160x90 \
-    --shadow-map 512 --quiet --digest "$@"
+  methods=(two-phase)
+  # The reference on materials, on motion and on water.
+  case "$asset $camera" in "materials front" | "motion rider" | "water above") methods+=(ray-traced) ;; esac
+  for method in "${methods[@]}"; do
+    "$shoal" render "$root/data/assets/$asset.glb" --camera "$camera" --time "$time" --method "$method" --size 160x90 \
+      --shadow-map 512 --quiet --digest "$@"
+  done
 done <"$root/tests/goldens/assets.list"

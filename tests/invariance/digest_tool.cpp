@@ -6,8 +6,8 @@
 //   digest_tool --list-isas
 //
 // Without --scene, --camera or --method: `pool`, `box` and `pond` by all of them, but for methods other than the
-// default `box` alone and the first camera of `pond`, whose water moves and has a shore; and the first camera of `pool`
-// by the default method and the reference with shadows by rays. A line: scene camera method stage digest.
+// default `box` alone and the first camera of `pond`, whose water moves and has a shore; shadows by rays on `pool`; the
+// reference on displaced water and on `tank`. A line: scene camera method stage digest.
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
@@ -130,22 +130,35 @@ void print_frame(const std::string& prefix, const shoal::Frame& frame) {
   std::printf("%s picture %s\n", prefix.c_str(), shoal::picture_digest(frame).c_str());
 }
 
-// A frame with shadows by rays.
-void run_traced_shadows(const Arguments& arguments, const shoal::RenderScene& scene, const std::string& method) {
+// One small frame by a scene's first camera.
+void run_one(const Arguments& arguments, const std::string& name, const shoal::RenderScene& scene,
+             const std::string& method, shoal::Shadows shadows) {
   shoal::FrameSettings settings = arguments.settings;
   settings.method = method;
-  settings.shadows = shoal::Shadows::kRays;
+  settings.shadows = shadows;
   if (!arguments.sized) settings.width_px = 144, settings.height_px = 80;
   shoal::Frame frame;
   shoal::Renderer(scene, settings).render(scene.cameras.front().camera, arguments.time_s, frame);
-  print_frame("pool shadow-rays " + method, frame);
+  print_frame(name + " " + method, frame);
+}
+
+// What the loop over scenes and methods leaves out: rays for shadows, and the reference on displaced water and `tank`.
+void run_rays(const Arguments& arguments) {
+  const auto built = [&](const char* name) {
+    return shoal::build_render_scene(find_scene(name).make(arguments.triangles));
+  };
+  const shoal::RenderScene pool = built("pool");
+  for (const char* method : {"two-phase", "ray-traced"})
+    run_one(arguments, "pool shadow-rays", pool, method, shoal::Shadows::kRays);
+  shoal::RenderScene pond = built("pond");
+  for (shoal::WaterBody& body : pond.waters) body.surface.geometry = shoal::WaterGeometry::kDisplaced;
+  run_one(arguments, "pond displaced", pond, "ray-traced", shoal::Shadows::kMap);
+  run_one(arguments, "tank first", built("tank"), "ray-traced", shoal::Shadows::kMap);
 }
 
 void run(const Arguments& arguments) {
   for (const std::string& scene_name : arguments.scenes) {
     const shoal::RenderScene scene = shoal::build_render_scene(find_scene(scene_name).make(arguments.triangles));
-    if (scene_name == "pool" && arguments.methods.size() > 1)
-      for (const char* method : {"two-phase", "ray-traced"}) run_traced_shadows(arguments, scene, method);
     for (const std::string& method : arguments.methods) {
       // All methods on the small scene, and a look at water that moves; the others show the default one what they hold.
       const bool all_cameras =
@@ -184,6 +197,7 @@ int main(int count, char** texts) {
       return 0;
     }
     run(arguments);
+    if (arguments.scenes.size() > 1 && arguments.methods.size() > 1) run_rays(arguments);
     return 0;
   } catch (const shoal::UsageError& error) {
     std::fprintf(stderr, "digest_tool: error: %s\n", error.what());
