@@ -1,6 +1,7 @@
 // Traversal of the BVH over a scene's triangles against all of them in double.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 #include <random>
 #include <vector>
 
@@ -175,6 +176,55 @@ TEST_CASE("bvh16: a bounded depth, however triangles lie", "[trace]") {
   CHECK(triangles == 3000);
   CHECK(height.back() > 3);
   CHECK(height.back() <= Bvh16::kMaxLevels);
+}
+
+TEST_CASE("bvh16: builds on any number of threads are equal, and as large as stated", "[trace]") {
+  Soup soup(40'000);
+  const auto build = [&](int threads) {
+    ThreadPool pool(threads);
+    Bvh16 bvh;
+    bvh.build(soup.geometry, soup.materials, Bvh16::Content::kOpaque, true, pool);
+    return bvh;
+  };
+  const auto same = [](const auto& a, const auto& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+  };
+  const Bvh16 serial = build(1);
+  for (const int threads : {2, 3, 8}) {
+    const Bvh16 parallel = build(threads);
+    INFO(threads << " threads");
+    CHECK(same(parallel.nodes, serial.nodes));
+    CHECK(same(parallel.leaves, serial.leaves));
+    CHECK(same(parallel.kinds, serial.kinds));
+    CHECK(same(parallel.corners, serial.corners));
+  }
+  const auto bytes = [](const auto& v) { return static_cast<double>(v.size() * sizeof v[0]) / 40'000; };
+  const double without = bytes(serial.nodes) + bytes(serial.leaves) + bytes(serial.kinds);
+  CAPTURE(without, bytes(serial.corners));
+  CHECK(without < 14);
+  CHECK(bytes(serial.corners) < 75);
+  CHECK(bytes(serial.corners) > 36);
+}
+
+TEST_CASE("bvh16: a blended triangle is in the other content alone", "[trace]") {
+  Soup soup(400);
+  soup.materials.materials[0].alpha_mode = AlphaMode::kBlend;
+  ThreadPool pool(1);
+  Bvh16 opaque, blended;
+  opaque.build(soup.geometry, soup.materials, Bvh16::Content::kOpaque, false, pool);
+  blended.build(soup.geometry, soup.materials, Bvh16::Content::kBlended, false, pool);
+  const auto ids = [](const Bvh16& bvh) {
+    std::vector<std::int32_t> all;
+    for (std::size_t i = 0; i < bvh.leaves.size(); ++i)
+      for (const std::int32_t id : bvh.leaves[i].id)
+        if (id != Bvh16::kNone) all.push_back(id);
+    return all;
+  };
+  const std::vector<std::int32_t> in_opaque = ids(opaque), in_blended = ids(blended);
+  CHECK(in_opaque.size() + in_blended.size() == 400);
+  for (const std::int32_t id : in_opaque) CHECK(soup.geometry.triangles[static_cast<std::size_t>(id)].material == 1);
+  for (const std::int32_t id : in_blended) CHECK(soup.geometry.triangles[static_cast<std::size_t>(id)].material == 0);
+  for (std::size_t i = 0; i < blended.kinds.size(); ++i) CHECK(blended.kinds[i].casts_shadow == 0);
 }
 
 TEST_CASE("bvh16: of nothing, and of what is blended", "[trace]") {

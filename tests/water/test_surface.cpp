@@ -112,9 +112,10 @@ TEST_CASE("slope= is the RMS slope over the body", "[water]") {
       const bool fades = c.settings.kind == SurfaceKind::kRipples || c.settings.kind == SurfaceKind::kRippleFilter;
       const double life = c.settings.falloff == RippleFalloff::kExponential ? 24.0 : 4.0;
       const int times = fades ? 59 : 1;
+      const SurfaceModel model = make_surface_model(c.settings, kBody);
       for (int i = 0; i < times; ++i) {
         const double time = fades ? life * (i + 0.25) / times : 0.0;
-        mean += std::pow(rms_slope(prepare_surface(c.settings, time, kBody), kBody, fades ? 10000 : 100000), 2) / times;
+        mean += std::pow(rms_slope(prepare_surface(model, time), kBody, fades ? 10000 : 100000), 2) / times;
       }
       const double rms = std::sqrt(mean);
       CAPTURE(c.name, slope, rms);
