@@ -1,6 +1,8 @@
 // shoal info: what is in a scene.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/commands.h"
 #include "app/json_report.h"
 #include "app/load.h"
@@ -9,11 +11,16 @@
 namespace shoal::app {
 namespace {
 
+// Returns whether a node of the scene has a camera; otherwise the only camera is the one that frames the whole scene.
+bool has_camera_node(const Scene& scene) {
+  return std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& node) { return node.camera != kNoIndex; });
+}
+
 Json camera_json(const PlacedCamera& placed, const RenderScene& scene, const Scene& source) {
   const Camera& camera = placed.camera;
   Json json = Json::object();
   json["name"] = placed.name;
-  json["node"] = source.cameras.empty() ? Json(nullptr) : Json(scene.node_names[placed.node]);
+  json["node"] = has_camera_node(source) ? Json(scene.node_names[placed.node]) : Json(nullptr);
   json["projection"] = camera.orthographic ? "orthographic" : "perspective";
   if (camera.orthographic) {
     json["xmag"] = json_float(camera.xmag_m);

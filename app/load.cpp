@@ -9,8 +9,8 @@
 #include "app/messages.h"
 #include "core/error.h"
 #include "core/thread_pool.h"
-#include "scene/images/environment.h"
 #include "scene/gltf/gltf.h"
+#include "scene/images/environment.h"
 #include "water/surface_keys.h"
 
 namespace shoal::app {
@@ -84,7 +84,12 @@ void surround(const SceneOptions& options, bool quiet, LoadedScene& loaded) {
   Scene& scene = loaded.scene;
   scene.has_background = true;
   scene.background = Background{};
-  scene.background.environment = load_environment(file, options.cache, pool, warning);
+  try {
+    scene.background.environment = load_environment(file, options.cache, pool, warning);
+  } catch (const Error& e) {
+    if (options.environment) throw;
+    throw Error(fmt::format("{}: its environment {}", options.name, e.what()));
+  }
   scene.background.kind = Background::Kind::kEnvironment;
   loaded.environment_file = file;
   if (!quiet && !warning.empty()) warn(file, warning);

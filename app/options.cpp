@@ -78,6 +78,10 @@ bool set_water_key(WaterOverrides& water, const std::string& key, const std::str
     for (const std::string& name : split(value, '+')) {
       kinds.push_back(surface_kinds()[read_choice(option, name, names)].kind);
     }
+    if (kinds.size() > kMaxSurfaceParts) {
+      throw UsageError(
+          fmt::format("{}: is a sum of {} surfaces; expected at most {}", option, kinds.size(), kMaxSurfaceParts));
+    }
     water.surface = kinds;
   } else if (key == "geometry") {
     const bool displaced = read_choice(option, value, {"normals", "displaced"}) == 1;

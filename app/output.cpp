@@ -65,10 +65,20 @@ std::string directory_of(const std::string& path) {
   return path.substr(0, slash + 1);
 }
 
-// The file that `path` stands for once links are followed; one that is not there yet stands for itself.
+// Returns the file that `path` stands for once links are followed. A link whose target does not exist yet stands for
+// that target, so that the link stays; a path that is no link stands for itself.
 std::string resolve_links(const std::string& path) {
   char resolved[PATH_MAX];
-  return realpath(path.c_str(), resolved) ? resolved : path;
+  if (realpath(path.c_str(), resolved)) return resolved;
+  constexpr int kMaxLinks = 40;  // as many as Linux follows
+  std::string target = path;
+  for (int i = 0; i < kMaxLinks; ++i) {
+    const ssize_t length = readlink(target.c_str(), resolved, sizeof resolved);
+    if (length < 0 || static_cast<std::size_t>(length) == sizeof resolved) return target;
+    const std::string next(resolved, static_cast<std::size_t>(length));
+    target = next.starts_with('/') ? next : directory_of(target) + next;
+  }
+  return path;
 }
 
 struct OpenTemporary {

@@ -1,6 +1,7 @@
 // The surface's keys by name: what files, the command and reports share.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,9 @@
 #include "water/surface_settings.h"
 
 namespace shoal {
+
+// The largest number of surfaces that a sum may have.
+constexpr std::size_t kMaxSurfaceParts = 16;
 
 struct SurfaceKindInfo {
   SurfaceKind kind;

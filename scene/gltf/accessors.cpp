@@ -202,17 +202,20 @@ std::vector<std::uint32_t> read_indices(Document& document, std::size_t index, s
        type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)) {
     fail(document.path, label + " is no list of vertex numbers", "expected SCALAR of type 5121, 5123 or 5125");
   }
-  if (accessor.bufferView < 0 || accessor.sparse.isSparse) {
-    fail(document.path, label + (accessor.sparse.isSparse ? " is sparse" : " has no bufferView"),
-         "expected plain indices");
-  }
+  if (accessor.sparse.isSparse) fail(document.path, label + " is sparse", "expected plain indices");
   const int size = component_size(type);
-  const Elements elements =
-      locate(document, accessor.bufferView, accessor.byteOffset, accessor.count, size, size, false, label);
+  Elements elements;
+  if (accessor.bufferView >= 0) {
+    elements = locate(document, accessor.bufferView, accessor.byteOffset, accessor.count, size, size, false, label);
+  } else if (accessor.count > document.limits.max_unbacked_elements) {
+    fail(document.path, label + " has " + std::to_string(accessor.count) + " elements and no bufferView",
+         "expected at most " + std::to_string(document.limits.max_unbacked_elements));
+  }
   charge(document, accessor.count * sizeof(std::uint32_t), label);
   std::vector<std::uint32_t> indices(accessor.count);
   for (std::size_t i = 0; i < indices.size(); ++i) {
-    indices[i] = load_unsigned(elements.first + i * static_cast<std::size_t>(size), size);
+    if (elements.first != nullptr)
+      indices[i] = load_unsigned(elements.first + i * static_cast<std::size_t>(size), size);
     if (indices[i] >= vertex_count) {
       fail(document.path, label + "[" + std::to_string(i) + "] is " + std::to_string(indices[i]),
            "expected less than " + std::to_string(vertex_count) + ", the number of vertices");

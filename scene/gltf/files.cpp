@@ -1,9 +1,11 @@
 // Reads the files that a scene names, within limits and only from the scene's folder.
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
 #include "scene/gltf/internal.h"
 
@@ -37,6 +39,11 @@ std::vector<std::uint8_t> read_file(const std::string& path, std::uint64_t max_b
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (static_cast<std::uint64_t>(in.gcount()) != size) {
     fail(blame, "reading " + path + " stopped early", "expected " + std::to_string(size) + " bytes");
+  }
+  constexpr std::string_view kLfsPointer = "version https://git-lfs.github.com/spec/";
+  if (bytes.size() >= kLfsPointer.size() && std::equal(kLfsPointer.begin(), kLfsPointer.end(), bytes.begin())) {
+    fail(blame, (path == blame ? "is" : path + " is") + std::string(" a Git LFS pointer, not the file itself"),
+         "expected the file that `git lfs pull` fetches");
   }
   return bytes;
 }

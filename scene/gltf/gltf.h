@@ -16,6 +16,7 @@ struct LoadLimits {
   int max_json_depth = 64;
   std::uint32_t max_nodes = 1u << 20;
   int max_node_depth = 1024;
+  std::uint32_t max_materials = 1u << 18;  // each also counts towards max_scene_bytes
   std::uint64_t max_triangles = std::uint64_t{1} << 26;    // drawn: a mesh counts once for each node that uses it
   std::uint64_t max_scene_bytes = std::uint64_t{8} << 30;  // of decoded textures and meshes and of world-space geometry
   std::uint32_t max_unbacked_elements = 1u << 24;          // of an accessor without bytes in the file (all zero)

@@ -210,7 +210,16 @@ void make_tangents(Document& document, const UvSource& source, const std::string
 
 void read_colors(Document& document, const Attribute& attribute, const std::string& label, MeshPrimitive& mesh) {
   const auto width = static_cast<std::size_t>(attribute.components);
-  const std::vector<float> values = read_floats(document, attribute.accessor, attribute.components, label + ".COLOR_0");
+  std::vector<float> values = read_floats(document, attribute.accessor, attribute.components, label + ".COLOR_0");
+  const tinygltf::Accessor& accessor = document.model.accessors.at(attribute.accessor);
+  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !accessor.normalized) {
+    warn(document, "some vertex colours are integers that are not normalized: they are read as normalized");
+    const bool bytes = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
+    if (!bytes && accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
+      fail(document.path, label + ".COLOR_0 has signed integers", "expected floats, or unsigned integers, normalized");
+    }
+    for (float& value : values) value /= bytes ? 255.0f : 65535.0f;
+  }
   mesh.colors.resize(values.size() / width);
   for (std::size_t i = 0; i < mesh.colors.size(); ++i) {
     const float* rgba = &values[i * width];

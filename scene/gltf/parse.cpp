@@ -46,7 +46,12 @@ Container split_glb(const Document& document) {
   }
   Container parts;
   parts.json = file.subspan(20, static_cast<std::size_t>(json_length));
-  const std::uint64_t next = (20 + json_length + 3) / 4 * 4;
+  // The specification pads the chunk to four bytes. Older exporters do not: the binary chunk follows at once.
+  const auto is_binary_at = [&](std::uint64_t at) {
+    return at + 8 <= length && read_u32(file, static_cast<std::size_t>(at) + 4) == 0x004E4942u;
+  };
+  std::uint64_t next = (20 + json_length + 3) / 4 * 4;
+  if (!is_binary_at(next) && is_binary_at(20 + json_length)) next = 20 + json_length;
   if (next + 8 > length) return parts;
   const std::uint64_t bin_length = read_u32(file, static_cast<std::size_t>(next));
   if (read_u32(file, static_cast<std::size_t>(next) + 4) != 0x004E4942u) return parts;  // chunks unknown to glTF 2.0
@@ -133,6 +138,12 @@ void load_buffers(Document& document, const json& root, const Container& parts) 
     const std::uint64_t length = buffers[i]["byteLength"].get<std::uint64_t>();
     Bytes bytes;
     if (!buffers[i].contains("uri")) {
+      const bool meshopt =
+          buffers[i].contains("extensions") && buffers[i]["extensions"].contains("EXT_meshopt_compression");
+      if (meshopt && (i != 0 || !parts.has_bin)) {
+        fail(document.path, label + " is compressed by EXT_meshopt_compression and has no fallback data",
+             "expected data that are not compressed");
+      }
       if (i != 0 || !parts.has_bin) {
         fail(document.path, label + " has no URI" + (i == 0 ? " and the file no binary chunk" : ""),
              "expected where its bytes are");
@@ -192,10 +203,57 @@ tinygltf::FsCallbacks closed_file_system() {
   return callbacks;
 }
 
+// Converts extras with everything that they hold: the library leaves out null, empty objects and empty arrays.
+tinygltf::Value value_of(const json& from) {
+  if (from.is_boolean()) return tinygltf::Value(from.get<bool>());
+  if (from.is_number()) return tinygltf::Value(from.get<double>());
+  if (from.is_string()) return tinygltf::Value(from.get<std::string>());
+  if (from.is_array()) {
+    tinygltf::Value::Array array;
+    for (const json& item : from) array.push_back(value_of(item));
+    return tinygltf::Value(std::move(array));
+  }
+  if (!from.is_object()) return tinygltf::Value();
+  tinygltf::Value::Object object;
+  for (const auto& [key, item] : from.items()) object.emplace(key, value_of(item));
+  return tinygltf::Value(std::move(object));
+}
+
+// Replaces the extras that the loader reads by complete ones.
+void restore_extras(Document& document, const json& root) {
+  const auto extras_of = [](const json& from) {
+    const auto it = from.find("extras");
+    return it == from.end() ? tinygltf::Value() : value_of(*it);
+  };
+  tinygltf::Model& model = document.model;
+  model.asset.extras = extras_of(root["asset"]);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) model.nodes[i].extras = extras_of(root["nodes"][i]);
+  for (std::size_t i = 0; i < model.scenes.size(); ++i) model.scenes[i].extras = extras_of(root["scenes"][i]);
+}
+
+// Gives the library, which refuses a skin without inverse bind matrices, an index that restore_skins removes.
+// Returns for each skin whether the file has none, which means identity (glTF 2.0 specification, 3.7.3.1).
+std::vector<char> complete_skins(json& root) {
+  std::vector<char> added;
+  if (!root.contains("skins")) return added;
+  for (json& skin : root["skins"]) {
+    added.push_back(skin.contains("inverseBindMatrices") ? 0 : 1);
+    if (added.back() != 0) skin["inverseBindMatrices"] = 0;
+  }
+  return added;
+}
+
+void restore_skins(Document& document, const std::vector<char>& added) {
+  for (std::size_t i = 0; i < document.model.skins.size() && i < added.size(); ++i) {
+    if (added[i] != 0) document.model.skins[i].inverseBindMatrices = -1;
+  }
+}
+
 void run_tinygltf(Document& document, json& root) {
   // The loader reads buffers and images itself with bounds checks, because the library does not check all ranges.
   root.erase("buffers");
   root.erase("images");
+  const std::vector<char> skins = complete_skins(root);
   const std::string text = root.dump();
   tinygltf::TinyGLTF loader;
   loader.SetFsCallbacks(closed_file_system());
@@ -208,6 +266,8 @@ void run_tinygltf(Document& document, json& root) {
     fail(document.path, "is no valid glTF (" + (message.empty() ? "no reason given" : message) + ")",
          "expected a glTF 2.0 file");
   }
+  restore_skins(document, skins);
+  restore_extras(document, root);
 }
 
 }  // namespace

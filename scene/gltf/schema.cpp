@@ -143,6 +143,7 @@ class Checker {
   void check_extensions() const;
   void check_buffers() const;
   void check_accessors() const;
+  void check_compression(json& primitive, const std::string& where) const;
   void check_meshes() const;
   void check_texture_info(json& parent, const char* key, const std::string& where) const;
   void check_materials() const;
@@ -248,6 +249,20 @@ void Checker::check_accessors() const {
   });
 }
 
+// Refuses a primitive whose data are in a compressed form alone: its accessors would be read as zeros.
+void Checker::check_compression(json& primitive, const std::string& where) const {
+  json* extensions = object(primitive, "extensions", where);
+  if (extensions == nullptr || !extensions->contains("KHR_draco_mesh_compression")) return;
+  std::vector<std::size_t> accessors;
+  for (const json& value : primitive["attributes"]) accessors.push_back(value.get<std::size_t>());
+  if (primitive.contains("indices")) accessors.push_back(primitive["indices"].get<std::size_t>());
+  for (const std::size_t accessor : accessors) {
+    if (root_["accessors"][accessor].contains("bufferView")) continue;
+    wrong(where + " is compressed by KHR_draco_mesh_compression and has no fallback data",
+          "expected data that are not compressed");
+  }
+}
+
 void Checker::check_meshes() const {
   const std::size_t accessors = count("accessors");
   const auto check_attributes = [&](json& attributes, const std::string& where) {
@@ -265,6 +280,7 @@ void Checker::check_meshes() const {
       index(primitive, "indices", inner, "accessors");
       index(primitive, "material", inner, "materials");
       whole(primitive, "mode", inner, 0, 6);
+      check_compression(primitive, inner);
       if (json* targets = array(primitive, "targets", inner)) {
         for (json& target : *targets) {
           if (!target.is_object()) wrong(inner + ".targets holds " + text_of(target), "expected objects");
@@ -295,6 +311,14 @@ void Checker::check_texture_info(json& parent, const char* key, const std::strin
 }
 
 void Checker::check_materials() const {
+  // The text `{}` of a material becomes some kilobytes: a copy for the library, and its default values.
+  constexpr std::uint64_t kMaterialBytes = 3072;
+  if (count("materials") > document_.limits.max_materials) {
+    wrong("has " + std::to_string(count("materials")) + " materials",
+          "expected at most " + std::to_string(document_.limits.max_materials));
+  }
+  charge(document_, count("materials") * kMaterialBytes,
+         "the file's list of " + std::to_string(count("materials")) + " materials");
   each("materials", [&](json& material, const std::string& where) {
     if (json* pbr = object(material, "pbrMetallicRoughness", where)) {
       const std::string inner = where + ".pbrMetallicRoughness";

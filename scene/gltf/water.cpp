@@ -73,6 +73,10 @@ void read_surface_type(Document& document, const Value& value, const std::string
     const auto info = std::find_if(infos.begin(), infos.end(), [&](const auto& i) { return name == i.name; });
     if (info == infos.end()) fail(document.path, what + " is '" + one_line(type, 40) + "'", "expected " + kind_names());
     kinds.push_back(info->kind);
+    if (kinds.size() > kMaxSurfaceParts) {
+      fail(document.path, what + " is a sum of more than " + std::to_string(kMaxSurfaceParts) + " surfaces",
+           "expected at most " + std::to_string(kMaxSurfaceParts));
+    }
     start = end + 1;
   }
   set_surface_kinds(surface, kinds);
@@ -105,6 +109,17 @@ void read_surface_key(Document& document, const std::string& key, const Value& v
   }
 }
 
+// Warns of a spectrum's grid that the surface does not have as given.
+void warn_of_grid(Document& document, const SurfaceSettings& surface, const std::string& label) {
+  for (const SurfaceSettings& part : surface.parts) warn_of_grid(document, part, label);
+  if (surface.kind != SurfaceKind::kSpectrum || surface.grid == 0) return;
+  const int side = resolve_surface(surface).grid;
+  if (side == surface.grid) return;
+  warn(document, label + " has a spectrum with a grid of " + std::to_string(surface.grid) +
+                     " points a side, which is " + "no power of two from 16 to 512: " + std::to_string(side) +
+                     " is used");
+}
+
 void read_drops(Document& document, const Value& value, const std::string& what, SurfaceSettings& surface) {
   const std::string expected = "a list of [x, z, time], metres and seconds";
   if (!value.IsArray() || value.ArrayLen() > 256) fail(document.path, what + " is wrong", "expected " + expected);
@@ -121,9 +136,11 @@ void read_surface(Document& document, const Value& value, const std::string& wha
     read_surface_type(document, value, what, surface);
     return;
   }
+  if (value.Has("parts") && value.Has("type"))
+    fail(document.path, what + " has a type and parts", "expected one of them");
   if (value.Has("parts")) {
     const Value& parts = value.Get("parts");
-    if (depth > 0 || !parts.IsArray() || parts.ArrayLen() == 0 || parts.ArrayLen() > 16)
+    if (depth > 0 || !parts.IsArray() || parts.ArrayLen() == 0 || parts.ArrayLen() > kMaxSurfaceParts)
       fail(document.path, what + ".parts is wrong", "expected a list of 1 to 16 surfaces without parts of their own");
     surface.kind = SurfaceKind::kSum;
     for (std::size_t i = 0; i < parts.ArrayLen(); ++i) {
@@ -223,7 +240,10 @@ bool read_water(Document& document, const Value& extras, const std::string& labe
     if (value.IsBool()) {
       is_water = value.Get<bool>();
     } else if (value.IsNumber()) {
-      is_water = value.GetNumberAsDouble() != 0;
+      const double number = value.GetNumberAsDouble();
+      if (number != 0 && number != 1)
+        fail(document.path, label + ".extras.water is a number", "expected an object, true or false (or 1 or 0)");
+      is_water = number == 1;
     } else if (value.IsObject()) {
       is_water = true;
       for (const std::string& key : value.Keys()) {
@@ -256,6 +276,7 @@ bool read_water(Document& document, const Value& extras, const std::string& labe
       warn(document, "extras key '" + one_line(name, 40) + "' is not known");
     }
   }
+  if (is_water) warn_of_grid(document, water.surface, label);
   return is_water;
 }
 

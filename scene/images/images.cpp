@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <string_view>
 
 #include "core/error.h"
 #include "scene/images/exr.h"
@@ -263,15 +264,22 @@ Texture decode_texture(Encoded encoded, const std::string& name, bool srgb, cons
 
 std::vector<std::uint8_t> read_image_file(const std::string& path) {
   std::error_code ec;
-  const bool regular = std::filesystem::is_regular_file(path, ec);
-  const std::uint64_t size = regular ? std::filesystem::file_size(path, ec) : 0;
+  const std::filesystem::file_status status = std::filesystem::status(path, ec);
+  if (ec || status.type() == std::filesystem::file_type::not_found)
+    fail(path, "cannot be opened", "expected an image file");
+  // Opening a FIFO would wait for its writer, and a device has no end.
+  if (status.type() != std::filesystem::file_type::regular) fail(path, "is no regular file", "expected an image file");
+  const std::uint64_t size = std::filesystem::file_size(path, ec);
   std::ifstream in(path, std::ios::binary);
-  if (!regular || ec || !in) fail(path, "cannot be opened", "expected an image file");
+  if (ec || !in) fail(path, "cannot be opened", "expected an image file");
   if (size > std::uint64_t{4} << 30) fail(path, "has " + std::to_string(size) + " bytes", "expected at most 4 GiB");
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (static_cast<std::uint64_t>(in.gcount()) != size)
     fail(path, "cannot be read to its end", "expected an image file");
+  constexpr std::string_view kLfsPointer = "version https://git-lfs.github.com/spec/";
+  if (bytes.size() >= kLfsPointer.size() && std::equal(kLfsPointer.begin(), kLfsPointer.end(), bytes.begin()))
+    fail(path, "is a Git LFS pointer, not the file itself", "expected the file that `git lfs pull` fetches");
   return bytes;
 }
 

@@ -171,6 +171,16 @@ exits "standard output closed" 1 bash -c '"$0" info box >&-' "$shoal"
 ln -s a.png link.png
 passes "a link is written through" "$shoal" render box -o link.png $small --camera 1
 equals "and stays a link" "yes" "$([ -L link.png ] && ! cmp -s a.png keep.png && echo yes)"
+# A link to a file that is not there yet, directly and by a second link from another folder.
+mkdir links targets
+ln -s ../targets/new.png links/dangling.png
+ln -s links/dangling.png second.png
+passes "a dangling link is written through" "$shoal" render box -o second.png $small --camera 1
+equals "the links stay and the target is there" "yes" \
+  "$([ -L second.png ] && [ -L links/dangling.png ] && cmp -s targets/new.png a.png && echo yes)"
+ln -s nowhere/new.png no_folder.png
+refuses 1 "no_folder.png: cannot be written" "$shoal" render box -o no_folder.png $small
+equals "a link into no folder stays" "yes" "$([ -L no_folder.png ] && echo yes)"
 no_leftovers "failed renders"
 
 # --- Interrupted: whole pictures, no partial one

@@ -106,6 +106,24 @@ bad image.gltf
 equals "no picture came of them" "" "$(ls bad.png 2>/dev/null)"
 no_leftovers "broken files"
 
+# --- A camera that no node uses
+echo '{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"name": "n"}],
+ "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}]}' >camera.gltf
+sed 's/{"nodes": \[0\]}/{}/' camera.gltf >no_node.gltf
+for file in camera no_node; do
+  passes "info $file" "$shoal" info $file.gltf --quiet --json $file.json
+  equals "$file: the camera's name" "default" "$(field $file.json cameras/0/name)"
+  equals "$file: its node" "null" "$(field $file.json cameras/0/node)"
+done
+
+# --- An environment that is a FIFO is refused, and the scene is named
+mkfifo fifo.png
+echo '{"asset": {"version": "2.0"}, "scenes": [{"extras": {"environment": "fifo.png"}}]}' >fifo.gltf
+refuses 1 "fifo.gltf: its environment .*fifo.png: is no regular file; expected" timeout 20 "$shoal" render fifo.gltf -o x.png $small
+refuses 1 "error: fifo.png: is no regular file; expected" timeout 20 "$shoal" render box --environment fifo.png -o x.png $small
+refuses 2 "sum of 17 surfaces; expected at most 16" "$shoal" render box -o x.png $small \
+  --set surface=$(printf 'perlin+%.0s' $(seq 16))perlin
+
 # --- Warnings go to standard error, a line each, and --quiet switches them off
 passes "--set ior without water" "$shoal" render good.gltf -o good.png $small --set ior=1.2
 equals "warns" "1" "$(grep -c '^shoal: warning: good.gltf: ' .err)"

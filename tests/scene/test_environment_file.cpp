@@ -1,6 +1,7 @@
 // Pictures as environments: formats, limits, invalid numbers, and the cache on disk.
 #include <catch2/catch.hpp>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -155,6 +156,19 @@ TEST_CASE("environment file: the cache changes nothing, and what is wrong in it 
   write(folder.file("file"), "x");
   write(picture, small_hdr());
   CHECK(same(*plain, *load_environment(picture, folder.file("file") + "/below", pool, warning)));
+}
+
+// Opening a FIFO that has no writer would wait for ever.
+TEST_CASE("environment file: a FIFO and a folder are refused") {
+  const Folder folder;
+  ThreadPool pool(1);
+  std::string warning;
+  REQUIRE(mkfifo(folder.file("fifo.hdr").c_str(), 0600) == 0);
+  fs::create_directory(folder.file("folder.hdr"));
+  for (const char* name : {"fifo.hdr", "folder.hdr"}) {
+    CHECK_THROWS_WITH(load_environment(folder.file(name), "", pool, warning),
+                      folder.file(name) + ": is no regular file; expected an image file");
+  }
 }
 
 TEST_CASE("environment file: a scene names one beside it, and only there") {
