@@ -144,16 +144,6 @@ TEST_CASE("gltf: a skin without inverseBindMatrices has identities", "[gltf]") {
   }
 }
 
-TEST_CASE("gltf: indices without a bufferView are zeros", "[gltf]") {
-  CraftedFile file = good_file();
-  file.root["accessors"].push_back({{"componentType", 5123}, {"type", "SCALAR"}, {"count", 6}});
-  file.root["meshes"][0]["primitives"][0]["indices"] = file.root["accessors"].size() - 1;
-  const Scene scene = load(file);
-  CHECK(scene.meshes[0].primitives[0].indices == std::vector<std::uint32_t>(6, 0));
-  file.root["accessors"].back()["count"] = 0xFFFFFFFFu;
-  CHECK_THAT(error_of(file), Catch::Matchers::Contains("elements and no bufferView"));
-}
-
 TEST_CASE("gltf: integer colours that are not normalized are read as normalized, with a warning", "[gltf]") {
   const std::vector<std::uint8_t> bytes = {255, 0, 51, 255, 0, 0, 0, 0, 255, 255, 255, 102};
   for (const bool normalized : {false, true}) {
