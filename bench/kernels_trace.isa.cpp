@@ -1,15 +1,12 @@
 // Ray queries by the BVH, sixteen rays at a time, one copy an ISA.
 #include "bench/kernels.h"
+#include "core/vec_lanes.h"
 #include "trace/blocked_rays.h"
 #include "trace/nearest_hit.h"
 
 namespace shoal::bench::inline SHOAL_ISA_NS {
 
 namespace {
-
-SHOAL_INLINE Vec3<WideF> load3(const float (&from)[3][16]) {
-  return {WideF::load(from[0]), WideF::load(from[1]), WideF::load(from[2])};
-}
 
 void run_nearest(const Bvh16& bvh, const ShadingView& view, const RayBlock& rays, HitsOfBlock& out) {
   const NearestHit hit = nearest_hits(bvh, view, {load3(rays.origin_world), load3(rays.direction_world)}, {},

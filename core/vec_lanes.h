@@ -44,4 +44,9 @@ SHOAL_INLINE Vec3<F> max(Vec3<F> a, Vec3<F> b) {
   return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
 }
 
+// Sixteen vectors, component by component.
+SHOAL_INLINE Vec3<WideF> load3(const float (&from)[3][16]) {
+  return {WideF::load(from[0]), WideF::load(from[1]), WideF::load(from[2])};
+}
+
 }  // namespace shoal::inline SHOAL_ISA_NS

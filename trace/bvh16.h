@@ -40,7 +40,7 @@ struct Bvh16 {
   struct Kinds {
     std::uint16_t present, one_sided, alpha_tested, casts_shadow;  // a bit a triangle
   };
-  PodVector<Node> nodes;       // the root last; none: nothing is opaque
+  PodVector<Node> nodes;       // the root last; none: no triangle is of the content
   PodVector<Leaf> leaves;      // in the order of the hierarchy, near ones together
   PodVector<Kinds> kinds;      // of the leaves
   PodVector<Corners> corners;  // the same, for scenes with many queries; else empty, and read from the scene

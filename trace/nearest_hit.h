@@ -16,12 +16,13 @@ struct NearestHit {
 // The nearest opaque triangle that each ray hits, as the rasterizer draws them: one-sided materials from their front
 // alone, alpha-tested ones where the material keeps the point, blended ones not.
 //
-//   bvh           over the scene's geometry
-//   view          geometry and materials, for the alpha test
-//   ray           world, direction of about unit length (0.5 to 2); fastest where the rays lie near each other, as a
-//   block's do differential  of the rays: the footprint of alpha-tested textures known         a hit that each ray has
-//   already, or where it ends: only nearer triangles are searched for lanes         the rays that are wanted t_near
-//   where the rays start, in lengths of the direction; at least 0
+//   bvh     over the scene's geometry
+//   view    geometry and materials, for the alpha test
+//   ray     world, direction of about unit length (0.5 to 2); fastest where the rays lie near each other
+//   differential  of the rays: the footprint of alpha-tested textures
+//   known   a hit that each ray has already, or where it ends: only nearer triangles are searched for
+//   lanes   the rays that are wanted
+//   t_near  where the rays start, in lengths of the direction; at least 0
 // Returns the nearest hit, of triangles equally far the one of smallest id; `known` where nothing is nearer, and in
 // the other lanes.
 // Source: Wald et al. 2001 (rays in packets), Kay and Kajiya 1986 (slabs), trace/traversal.h.

@@ -15,10 +15,6 @@ std::uint32_t count_and_trace(const TracedShadows& shadows, const Ray<WideF>& ra
   return blocked_rays(*shadows.bvh, *shadows.view, ray, t_far, bits);
 }
 
-SHOAL_INLINE Vec3<WideF> load3(const float (&from)[3][16]) {
-  return {WideF::load(from[0]), WideF::load(from[1]), WideF::load(from[2])};
-}
-
 }  // namespace
 
 std::uint32_t sun_blocked(const void* context, const ShadowQuery& query, const SunBend* bend, std::uint32_t of_lanes) {

@@ -49,8 +49,5 @@ SHOAL_INLINE void store3(float (&to)[3][16], const Vec3<WideF>& v) {
 SHOAL_INLINE void store3(float (&to)[3][16], const Vec3<WideF>& v, WideM lanes) {
   store_masked(to[0], v.x, lanes), store_masked(to[1], v.y, lanes), store_masked(to[2], v.z, lanes);
 }
-SHOAL_INLINE Vec3<WideF> load3(const float (&from)[3][16]) {
-  return {WideF::load(from[0]), WideF::load(from[1]), WideF::load(from[2])};
-}
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -101,8 +101,11 @@ std::uint32_t sparse_index(const std::uint8_t* first, std::uint64_t i, int size)
   return load_unsigned(first + i * static_cast<std::uint64_t>(size), size);
 }
 
-void apply_sparse(Document& document, const tinygltf::Accessor& accessor, const std::string& label, int components,
-                  std::vector<float>& values) {
+// Calls store(element, address of its new value) for each element that the sparse part replaces.
+template <class Store>
+void apply_sparse(const Document& document, const tinygltf::Accessor& accessor, const std::string& label,
+                  int components, const Store& store) {
+  if (!accessor.sparse.isSparse) return;
   const auto& sparse = accessor.sparse;
   const auto count = static_cast<std::uint64_t>(sparse.count);
   if (count > accessor.count) {
@@ -131,11 +134,7 @@ void apply_sparse(Document& document, const tinygltf::Accessor& accessor, const 
            "expected increasing indices below " + std::to_string(accessor.count));
     }
     previous = index;
-    for (int c = 0; c < components; ++c) {
-      values[static_cast<std::size_t>(index) * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)] =
-          load_component(replaced.first + i * replaced.stride + static_cast<std::uint64_t>(c * size),
-                         accessor.componentType, accessor.normalized);
-    }
+    store(static_cast<std::size_t>(index), replaced.first + i * replaced.stride);
   }
 }
 
@@ -181,7 +180,11 @@ std::vector<float> read_floats(Document& document, std::size_t index, int compon
       }
     }
   }
-  if (accessor.sparse.isSparse) apply_sparse(document, accessor, label, components, values);
+  apply_sparse(document, accessor, label, components, [&](std::size_t element, const std::uint8_t* at) {
+    for (std::size_t c = 0; c < width; ++c) {
+      values[element * width + c] = load_component(at + c * static_cast<std::size_t>(size), type, accessor.normalized);
+    }
+  });
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i])) {
       fail(document.path,
@@ -202,7 +205,6 @@ std::vector<std::uint32_t> read_indices(Document& document, std::size_t index, s
        type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)) {
     fail(document.path, label + " is no list of vertex numbers", "expected SCALAR of type 5121, 5123 or 5125");
   }
-  if (accessor.sparse.isSparse) fail(document.path, label + " is sparse", "expected plain indices");
   const int size = component_size(type);
   Elements elements;
   if (accessor.bufferView >= 0) {
@@ -213,9 +215,12 @@ std::vector<std::uint32_t> read_indices(Document& document, std::size_t index, s
   }
   charge(document, accessor.count * sizeof(std::uint32_t), label);
   std::vector<std::uint32_t> indices(accessor.count);
+  for (std::size_t i = 0; i < indices.size() && elements.first != nullptr; ++i) {
+    indices[i] = load_unsigned(elements.first + i * static_cast<std::size_t>(size), size);
+  }
+  apply_sparse(document, accessor, label, 1,
+               [&](std::size_t element, const std::uint8_t* at) { indices[element] = load_unsigned(at, size); });
   for (std::size_t i = 0; i < indices.size(); ++i) {
-    if (elements.first != nullptr)
-      indices[i] = load_unsigned(elements.first + i * static_cast<std::size_t>(size), size);
     if (indices[i] >= vertex_count) {
       fail(document.path, label + "[" + std::to_string(i) + "] is " + std::to_string(indices[i]),
            "expected less than " + std::to_string(vertex_count) + ", the number of vertices");

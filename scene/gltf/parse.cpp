@@ -231,29 +231,48 @@ void restore_extras(Document& document, const json& root) {
   for (std::size_t i = 0; i < model.scenes.size(); ++i) model.scenes[i].extras = extras_of(root["scenes"][i]);
 }
 
-// Gives the library, which refuses a skin without inverse bind matrices, an index that restore_skins removes.
-// Returns for each skin whether the file has none, which means identity (glTF 2.0 specification, 3.7.3.1).
-std::vector<char> complete_skins(json& root) {
-  std::vector<char> added;
-  if (!root.contains("skins")) return added;
-  for (json& skin : root["skins"]) {
-    added.push_back(skin.contains("inverseBindMatrices") ? 0 : 1);
-    if (added.back() != 0) skin["inverseBindMatrices"] = 0;
+// What the library refuses though the format allows it: filled in before the library reads the file, removed after.
+struct Completed {
+  std::vector<std::size_t> skins;      // without inverseBindMatrices, which means identity (glTF 2.0, 3.7.3.1)
+  std::vector<std::size_t> accessors;  // of indices without bufferView, which means zeros (glTF 2.0, 3.6.2.3)
+};
+
+Completed complete(json& root) {
+  Completed completed;
+  if (root.contains("skins")) {
+    for (std::size_t i = 0; i < root["skins"].size(); ++i) {
+      if (root["skins"][i].contains("inverseBindMatrices")) continue;
+      root["skins"][i]["inverseBindMatrices"] = 0;
+      completed.skins.push_back(i);
+    }
   }
-  return added;
+  if (!root.contains("meshes")) return completed;
+  for (const json& mesh : root["meshes"]) {
+    for (const json& primitive : mesh["primitives"]) {
+      if (!primitive.contains("indices")) continue;
+      const auto i = primitive["indices"].get<std::size_t>();
+      if (root["accessors"][i].contains("bufferView")) continue;
+      root["accessors"][i]["bufferView"] = 0;
+      completed.accessors.push_back(i);
+    }
+  }
+  // The library wants a bufferView of that number; a file of zeros may have none.
+  if (!completed.accessors.empty() && root.value("bufferViews", json::array()).empty()) {
+    root["bufferViews"] = json::array({{{"buffer", 0}, {"byteLength", 1}}});
+  }
+  return completed;
 }
 
-void restore_skins(Document& document, const std::vector<char>& added) {
-  for (std::size_t i = 0; i < document.model.skins.size() && i < added.size(); ++i) {
-    if (added[i] != 0) document.model.skins[i].inverseBindMatrices = -1;
-  }
+void restore(Document& document, const Completed& completed) {
+  for (const std::size_t i : completed.skins) document.model.skins.at(i).inverseBindMatrices = -1;
+  for (const std::size_t i : completed.accessors) document.model.accessors.at(i).bufferView = -1;
 }
 
 void run_tinygltf(Document& document, json& root) {
   // The loader reads buffers and images itself with bounds checks, because the library does not check all ranges.
   root.erase("buffers");
   root.erase("images");
-  const std::vector<char> skins = complete_skins(root);
+  const Completed completed = complete(root);
   const std::string text = root.dump();
   tinygltf::TinyGLTF loader;
   loader.SetFsCallbacks(closed_file_system());
@@ -266,7 +285,7 @@ void run_tinygltf(Document& document, json& root) {
     fail(document.path, "is no valid glTF (" + (message.empty() ? "no reason given" : message) + ")",
          "expected a glTF 2.0 file");
   }
-  restore_skins(document, skins);
+  restore(document, completed);
   restore_extras(document, root);
 }
 

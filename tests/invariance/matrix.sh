@@ -47,10 +47,10 @@ for build in "${builds[@]}"; do
   say "$build"
   cmake -S . -B "$root/$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" \
     -DSHOAL_OPTIMIZE="-$level" -DSHOAL_BENCH=OFF >"$root/$build.log" 2>&1 || { cat "$root/$build.log"; exit 1; }
-  cmake --build "$root/$build" -j "$(jobs)" --target digest_tool shoal
+  cmake --build "$root/$build" -j "$(jobs)" --target digest_tool asset_digest_tool shoal
   tests/invariance/sweep.sh $root/out/reference $root/out "$build" "$root/$build/bin/digest_tool" || status=1
   SHOAL_SWEEP=short tests/invariance/sweep.sh $root/out/reference-assets $root/out "$build-assets" \
-    bash tests/invariance/asset_digests.sh "$root/$build/bin/shoal" || status=1
+    "$root/$build/bin/asset_digest_tool" || status=1
   if (( $# > 0 )); then files_of "$build" "$@"; fi
 done
 

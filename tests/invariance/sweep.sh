@@ -1,29 +1,35 @@
 #!/bin/bash
-# sweep.sh REFERENCE DIRECTORY NAME RUNNER...: every ISA x thread count x tile size of one build of digest_tool.
+# sweep.sh REFERENCE DIRECTORY NAME RUNNER...: every ISA x thread count x tile size of one build of a digest tool.
 #
 #   REFERENCE  digests that all must print; made from the first configuration where it is not there yet
 #   DIRECTORY  where outputs that differ are left
 #   NAME       of the build, for messages
-#   RUNNER     the program, or an emulator and the program
+#   RUNNER     digest_tool or asset_digest_tool, or an emulator and one of them
 # SHOAL_SWEEP=short tries the corners only, for builds that are slow.
 set -euo pipefail
 reference=$1 directory=$2 name=$3
 shift 3
-mkdir -p "$directory"
+made=$directory/$name
+rm -rf "$made"
+mkdir -p "$made"
 
 threads=(1 2 7) tiles=(32 64 128)
 if [[ ${SHOAL_SWEEP:-} == short ]]; then threads=(1 7) tiles=(32 128); fi
+mapfile -t isas < <("$@" --list-isas)
+comma() { local IFS=,; echo "$*"; }
 
 runs=0 failures=0
-for isa in $("$@" --list-isas); do
+"$@" --isa "$(comma "${isas[@]}")" --threads "$(comma "${threads[@]}")" --tile "$(comma "${tiles[@]}")" --out "$made" ||
+  { failures=1; echo "FAILED $name: the program stopped"; }
+for isa in "${isas[@]}"; do
   for thread in "${threads[@]}"; do
     for tile in "${tiles[@]}"; do
       runs=$((runs + 1))
-      out=$directory/$name-$isa-$thread-$tile
+      out=$made/$isa-$thread-$tile
       configuration="$name --isa $isa --threads $thread --tile $tile"
-      if ! "$@" --isa "$isa" --threads "$thread" --tile "$tile" >"$out" || [[ ! -s $out ]]; then
+      if [[ ! -s $out ]]; then
         failures=$((failures + 1))
-        echo "FAILED $configuration"
+        echo "FAILED $configuration: no digests"
       elif [[ ! -f $reference ]]; then
         mv "$out" "$reference"
       elif cmp -s "$reference" "$out"; then

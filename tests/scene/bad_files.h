@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/gltf/gltf.h"
+
 namespace shoal::test {
 
 // A folder of its own under the system's temporary folder, removed at the end.
@@ -44,6 +46,9 @@ struct CraftedFile {
   std::vector<std::uint8_t> glb() const;
   std::string save_glb(const std::string& path) const;
 };
+
+// The message that refuses the file as a .glb, or "loaded".
+std::string error_of(const CraftedFile& file, const LoadLimits& limits = {});
 
 // An empty scene.
 CraftedFile empty_file();

@@ -11,16 +11,6 @@ namespace {
 
 using nlohmann::json;
 
-std::string error_of(const CraftedFile& file, const LoadLimits& limits = {}) {
-  const TemporaryFolder folder;
-  try {
-    load_gltf(file.save_glb(folder / "scene.glb"), limits);
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "loaded";
-}
-
 // An accessor without bytes in the file: zeros.
 std::size_t add_zeros(CraftedFile& file, const char* type, std::uint64_t count) {
   file.root["accessors"].push_back({{"componentType", 5126}, {"type", type}, {"count", count}});

@@ -19,16 +19,6 @@ Scene load(const CraftedFile& file) {
   return load_gltf(file.save_glb(folder / "scene.glb"));
 }
 
-std::string error_of(const CraftedFile& file, const LoadLimits& limits = {}) {
-  const TemporaryFolder folder;
-  try {
-    load_gltf(file.save_glb(folder / "scene.glb"), limits);
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "loaded";
-}
-
 json& water_extras(CraftedFile& file) { return file.root["nodes"][3]["extras"]; }
 
 // "perlin+perlin+..."
@@ -108,6 +98,22 @@ TEST_CASE("gltf: an empty object on a planar mesh is water with all defaults", "
   CHECK_FALSE(empty.waters[0].has_size);
   CHECK(empty.waters[0].ior == yes.waters[0].ior);
   CHECK(empty.waters[0].surface.kind == SurfaceKind::kFlat);
+}
+
+TEST_CASE("gltf: indices without bufferView are zeros, and a sparse part replaces some of them", "[gltf]") {
+  CraftedFile file = good_file();
+  const std::uint8_t elements[] = {1, 2};
+  const std::uint16_t values[] = {2, 1};
+  const std::size_t at = file.add_view(elements, sizeof elements), with = file.add_view(values, sizeof values);
+  json& indices = file.root["accessors"][file.root["meshes"][0]["primitives"][0]["indices"].get<std::size_t>()];
+  indices = {{"componentType", 5123}, {"type", "SCALAR"}, {"count", 3}};
+  indices["sparse"] = {
+      {"count", 2}, {"indices", {{"bufferView", at}, {"componentType", 5121}}}, {"values", {{"bufferView", with}}}};
+  CHECK(load(file).meshes[0].indices == std::vector<std::uint32_t>{0, 2, 1});
+  indices["sparse"]["values"]["bufferView"] = at;
+  CHECK_THAT(error_of(file), Catch::Matchers::Contains("sparse.values needs 4 bytes"));
+  indices.erase("sparse");
+  CHECK(load(file).meshes[0].indices == std::vector<std::uint32_t>{0, 0, 0});
 }
 
 TEST_CASE("gltf: materials count towards the limits", "[gltf]") {

@@ -15,6 +15,7 @@
 #include "core/thread_pool.h"
 #include "scene/gltf/gltf.h"
 #include "tests/refraction/double_vector.h"
+#include "tests/refraction/oracle_scene.h"
 
 using namespace shoal_test;
 using shoal::bench::HitsOfBlock;
@@ -216,17 +217,7 @@ struct Counts {
   int rays = 0, hits = 0, blocked = 0, differ = 0, shadows_differ = 0, not_allowed = 0;
 };
 
-RayPacket packet_of(const RayBlock& rays) {
-  RayPacket p;
-  for (int i = 0; i < 16; ++i) {
-    p.origin_x[i] = rays.origin_world[0][i], p.origin_y[i] = rays.origin_world[1][i];
-    p.origin_z[i] = rays.origin_world[2][i];
-    p.direction_x[i] = rays.direction_world[0][i], p.direction_y[i] = rays.direction_world[1][i];
-    p.direction_z[i] = rays.direction_world[2][i];
-    p.t_near[i] = 0.0f, p.t_far[i] = rays.t_far[i];
-  }
-  return p;
-}
+RayPacket packet_of(const RayBlock& rays) { return make_packet(rays.origin_world, rays.direction_world, rays.t_far); }
 Vec3d lane_of(const float (&v)[3][16], int lane) {
   return {static_cast<double>(v[0][lane]), static_cast<double>(v[1][lane]), static_cast<double>(v[2][lane])};
 }
@@ -311,13 +302,6 @@ void compare(const char* name, RenderScene scene) {
   CHECK(sum.not_allowed == 0);
   // Differences are rare where rays do not aim at edges: a quarter of these do.
   CHECK(sum.differ < sum.rays / 10);
-}
-
-RenderScene built_in(const std::string& name, std::uint64_t triangles) {
-  for (const ProceduralScene& scene : procedural_scenes())
-    if (name == scene.name) return build_render_scene(scene.make(triangles));
-  FAIL("no scene " << name);
-  return {};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -98,6 +99,17 @@ void filter_blocked(const RTCFilterFunctionNArguments* args) {
 }
 
 }  // namespace
+
+RayPacket make_packet(const float (&origin_world)[3][16], const float (&direction_world)[3][16],
+                      const float (&t_far)[16]) {
+  RayPacket p;
+  std::copy_n(origin_world[0], 16, p.origin_x), std::copy_n(origin_world[1], 16, p.origin_y);
+  std::copy_n(origin_world[2], 16, p.origin_z);
+  std::copy_n(direction_world[0], 16, p.direction_x), std::copy_n(direction_world[1], 16, p.direction_y);
+  std::copy_n(direction_world[2], 16, p.direction_z);
+  std::fill_n(p.t_near, 16, 0.0f), std::copy_n(t_far, 16, p.t_far);
+  return p;
+}
 
 struct EmbreeQueries::Impl {
   Impl(const RenderScene& scene, int threads, bool moves_)

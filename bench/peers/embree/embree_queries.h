@@ -24,6 +24,10 @@ struct alignas(64) RayPacket {
   const void* context = nullptr;
 };
 
+// Sixteen rays from arrays of components, from t_near 0.
+RayPacket make_packet(const float (&origin_world)[3][16], const float (&direction_world)[3][16],
+                      const float (&t_far)[16]);
+
 // The same triangles as ours: Embree's robust mode, one geometry for each of the four kinds of opaque triangles, with
 // filters where a kind needs one.
 class EmbreeQueries {
