@@ -109,11 +109,11 @@ TEST_CASE("gltf: indices without bufferView are zeros, and a sparse part replace
   indices = {{"componentType", 5123}, {"type", "SCALAR"}, {"count", 3}};
   indices["sparse"] = {
       {"count", 2}, {"indices", {{"bufferView", at}, {"componentType", 5121}}}, {"values", {{"bufferView", with}}}};
-  CHECK(load(file).meshes[0].indices == std::vector<std::uint32_t>{0, 2, 1});
+  CHECK(load(file).meshes[0].primitives[0].indices == std::vector<std::uint32_t>{0, 2, 1});
   indices["sparse"]["values"]["bufferView"] = at;
   CHECK_THAT(error_of(file), Catch::Matchers::Contains("sparse.values needs 4 bytes"));
   indices.erase("sparse");
-  CHECK(load(file).meshes[0].indices == std::vector<std::uint32_t>{0, 0, 0});
+  CHECK(load(file).meshes[0].primitives[0].indices == std::vector<std::uint32_t>{0, 0, 0});
 }
 
 TEST_CASE("gltf: materials count towards the limits", "[gltf]") {
