@@ -10,8 +10,6 @@
 #include <iterator>
 #include <limits>
 
-#include "core/error.h"
-
 namespace shoal::test {
 namespace {
 
@@ -39,16 +37,6 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 }
 
 }  // namespace
-
-std::string error_of(const CraftedFile& file, const LoadLimits& limits) {
-  const TemporaryFolder folder;
-  try {
-    load_gltf(file.save_glb(folder / "scene.glb"), limits);
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "loaded";
-}
 
 void append_png_chunk(std::vector<std::uint8_t>& file, const char* type, const std::vector<std::uint8_t>& data) {
   append_u32_be(file, static_cast<std::uint32_t>(data.size()));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "scene/gltf/gltf.h"
 
 namespace shoal::test {
@@ -48,7 +49,15 @@ struct CraftedFile {
 };
 
 // The message that refuses the file as a .glb, or "loaded".
-std::string error_of(const CraftedFile& file, const LoadLimits& limits = {});
+inline std::string error_of(const CraftedFile& file, const LoadLimits& limits = {}) {
+  const TemporaryFolder folder;
+  try {
+    load_gltf(file.save_glb(folder / "scene.glb"), limits);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "loaded";
+}
 
 // An empty scene.
 CraftedFile empty_file();
