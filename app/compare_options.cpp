@@ -89,7 +89,7 @@ SweepOptions read_sweep(const std::string& text) {
 
 }  // namespace
 
-std::string default_reference() { return is_method("ray-traced") ? "ray-traced" : "two-phase"; }
+std::string default_reference() { return is_method("ray-traced") ? "ray-traced" : "hybrid"; }
 
 double read_view_angle(const std::string& value) { return read_number("--sweep view-angle", value, 1, 90); }
 

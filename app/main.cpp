@@ -87,7 +87,7 @@ void add_picture_options(CLI::App& command, RawOptions& raw) {
 
 void add_frame_options(CLI::App& command, RawOptions& raw) {
   const AddOption add = adder(command);
-  add("--method", raw.method, "NAME", "how water is refracted (shoal list methods); two-phase");
+  add("--method", raw.method, "NAME", "how water is refracted (shoal list methods); hybrid");
   add("--methods", raw.methods, "A,B", "of shoal compare");
   add("--reference", raw.reference, "NAME", "of shoal compare");
   add_picture_options(command, raw);
@@ -107,7 +107,7 @@ void add_compare_options(CLI::App& command, CompareArguments& compare) {
   add("-o", raw.output, "DIR", "the folder: report.html, metrics.json, pictures; made where there is none");
   add("--methods", raw.methods, "A,B", "all but the reference (shoal list methods)");
   add("--reference", raw.reference, "NAME",
-      "the method that the others are compared with; ray-traced, or two-phase in a build without it");
+      "the method that the others are compared with; ray-traced, or hybrid in a build without it");
   add_picture_options(command, raw);
   add("--warmup", raw.warmup, "N", "uncounted frames before repeated ones; 3");
   add("--repeat", raw.repeat, "N",

@@ -1,5 +1,5 @@
 // What each feature of light and filtering costs a whole frame: rows beside a plain one, each with one thing changed.
-// Frames are those of bench_frame (a new camera each, nothing kept), by `two-phase` on the pool's threads.
+// Frames are those of bench_frame (a new camera each, nothing kept), by `hybrid` on the pool's threads.
 #include <string>
 
 #include "bench/harness.h"

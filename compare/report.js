@@ -20,7 +20,7 @@
     selects[side].value = id;
     show(side);
   };
-  // #left=reference&right=two-phase&at=25 opens the page on that view.
+  // #left=reference&right=hybrid&at=25 opens the page on that view.
   const follow = () => {
     const wanted = new URLSearchParams(location.hash.slice(1));
     for (const side of ["left", "right"]) if (wanted.has(side)) choose(side, wanted.get(side));

@@ -49,7 +49,7 @@ struct AovInfo {
 const std::vector<AovInfo>& aov_infos();
 
 struct FrameSettings {
-  std::string method = "two-phase";
+  std::string method = "hybrid";
   std::map<std::string, std::string> method_options;  // KEY -> VALUE; an unknown key is a UsageError
   int width_px = 1280, height_px = 720;               // 1 to 16384
   int spp = 1;                                        // 1 to 256

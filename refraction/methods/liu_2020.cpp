@@ -3,7 +3,7 @@
 //
 // Source  Liu, Han and Fei 2020: Algorithm 1 (broad phase), Algorithm 2 and eqs. 1-3 (narrow phase).
 // Differs Algorithm 1, line 8 moves every crossing along the camera's forward direction; it is along the line to the
-//         vertex, and line 11 misses the camera's position. Line 7 is solved exactly. Edges are split as two-phase has
+//         vertex, and line 11 misses the camera's position. Line 7 is solved exactly. Edges are split as hybrid has
 //         them split (the paper recommends it after Fig. 12; tessellate=false: as it was).
 //         Algorithm 2 leaves open which space P and N are in and turns the view ray as the normal turns. Here they are
 //         the world's (the triangle's own plane), the ray is Snell's, and the point hit goes through the broad phase

@@ -1,7 +1,7 @@
 // none: the same passes, surface and Fresnel, but rays go straight through.
 //
 // Source  Liu et al. 2020, Table 3, last column.
-// Differs Beside the layer's edges the BVH gives the hit, as for two-phase: so its category is hybrid.
+// Differs Beside the layer's edges the BVH gives the hit, as for hybrid: so its category is hybrid.
 #include "refraction/methods/method.h"
 
 namespace shoal::inline SHOAL_ISA_NS {

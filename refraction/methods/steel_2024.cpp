@@ -7,7 +7,7 @@
 //         defined and its three indices (1.333, 4/3, 1.33) are one index of the scene, by |depth|. |look.xy| /
 //         |refracted.xy| is n by Snell's law; the quotient is 0 / 0 looking straight down. A layer's point is where the
 //         pixel's ray hits the triangle, so no depth ratio needs to be kept. Under water, and in an orthographic view,
-//         the fixed point has no solution or no eye: the exact map is used. Edges are split as two-phase has them split
+//         the fixed point has no solution or no eye: the exact map is used. Edges are split as hybrid has them split
 //         (the source leaves that to the mesh). The underwater picture has the frame's own resolution.
 #include "refraction/broad/fixed_point_map.h"
 #include "refraction/methods/image_space.h"

@@ -1,15 +1,15 @@
 #!/bin/bash
 # shoal compare: what it leaves, what it says, what it refuses; the report in a real browser where there is one.
 source "$(dirname "$0")/checks.sh"
-small="--size 61x43 --reference two-phase --repeat 2 --warmup 0"
-once="--size 61x43 --reference two-phase --repeat 1 --methods none"
+small="--size 61x43 --reference hybrid --repeat 2 --warmup 0"
+once="--size 61x43 --reference hybrid --repeat 1 --methods none"
 json() { perl -MJSON::PP -e 'local $/; my $j = decode_json(<STDIN>); print eval($ARGV[0])' "$1" <"${2:-out/metrics.json}"; }
 
 # --- One run: the files, the keys in their order, the numbers' kinds
-passes "compare" "$shoal" compare box -o out $small --methods none,two-phase --exr --yee --set ior=1.25
+passes "compare" "$shoal" compare box -o out $small --methods none,hybrid --exr --yee --set ior=1.25
 equals "quiet where there is no terminal" "" "$(cat .out .err)"
 equals "its files" "metrics.json none.exr none.flip.png none.hit.png none.png reference.exr reference.png report.html \
-two-phase.exr two-phase.flip.png two-phase.hit.png two-phase.png" "$(ls out | paste -sd ' ')"
+hybrid.exr hybrid.flip.png hybrid.hit.png hybrid.png" "$(ls out | paste -sd ' ')"
 no_leftovers "compare"
 equals "metrics.json's keys" "scene size reference settings water_pixels methods" "$(keys_of out/metrics.json)"
 keys_in_order() { grep -oE "^$1\"[^\"]+\"" out/metrics.json | tr -d ' "' | paste -sd ' '; }
@@ -17,13 +17,13 @@ method_keys="name ms water frame hit_error_px hit_error_m wrong_object wrong_sur
 equals "a method's keys" "$method_keys $method_keys" "$(keys_in_order '      ')"
 inner="median min n flip psnr_db yee_failed flip psnr_db yee_failed median p95 p99 median p95 p99"
 equals "the keys below" "$inner $inner" "$(keys_in_order '        ')"
-equals "scene, size, reference" "box 61x43 two-phase" \
+equals "scene, size, reference" "box 61x43 hybrid" \
   "$(json '"$j->{scene} " . join("x", @{$j->{size}}) . " $j->{reference}"')"
 equals "settings" "1.25 1 2 0 67.02" \
   "$(json 'join " ", map { $j->{settings}{$_} } qw(ior spp repeat warmup ppd)')"
 equals "the method is no setting of all" "" "$(json '$j->{settings}{method} // ""')"
 equals "as many times as were asked for" "2 2" "$(json 'join " ", map { $_->{ms}{n} } @{$j->{methods}}')"
-equals "the order asked for" "none two-phase" "$(json 'join " ", map { $_->{name} } @{$j->{methods}}')"
+equals "the order asked for" "none hybrid" "$(json 'join " ", map { $_->{name} } @{$j->{methods}}')"
 equals "water_pixels is render's" "$("$shoal" render box --size 61x43 --json - | grep -oE '"water_pixels": [0-9]+' | cut -d' ' -f2)" \
   "$(json '$j->{water_pixels}')"
 
@@ -57,7 +57,7 @@ equals "hit buffers in the EXR" "4" "$(picture channels out/none.exr | grep -cE 
 equals "no address in it" "0" "$(grep -oE '(src|href)="[^"]{0,8}' out/report.html | grep -vcE '"data:')"
 equals "nothing to load from the style" "0" "$(grep -cE '@import|url\(' out/report.html)"
 equals "made for phones" "1" "$(grep -c 'name="viewport"' out/report.html)"
-equals "the command line" "1" "$(grep -cF "shoal compare box -o out --size 61x43 --reference two-phase --repeat 2 --warmup 0 --methods none,two-phase --exr --yee --set ior=1.25" out/report.html)"
+equals "the command line" "1" "$(grep -cF "shoal compare box -o out --size 61x43 --reference hybrid --repeat 2 --warmup 0 --methods none,hybrid --exr --yee --set ior=1.25" out/report.html)"
 
 # --- Sweeps
 passes "--sweep view-angle" "$shoal" compare box -o angle $small --methods none --sweep view-angle=20,60
@@ -93,7 +93,7 @@ fi
 limited() { (ulimit -f 20; "$@"); }
 refuses 1 "big/.*: cannot be written .*too large" limited "$shoal" compare box -o big --size 200x150 --repeat 1
 equals "a run that fails late makes no folder" "" "$(ls -d big 2>/dev/null)"
-"$shoal" compare box -o stopped --size 320x200 --reference none --methods two-phase --repeat 100000 --quiet &
+"$shoal" compare box -o stopped --size 320x200 --reference none --methods hybrid --repeat 100000 --quiet &
 run=$!
 for _ in $(seq 200); do [ -d stopped ] && break; sleep 0.05; done
 kill -TERM $run
@@ -106,7 +106,7 @@ no_leftovers "failed runs"
 c() { refuses 2 "$1" "$shoal" compare box -o no "${@:2}"; }
 refuses 2 "nowhere to write to; expected -o DIR" "$shoal" compare box
 refuses 2 "SCENE is required" "$shoal" compare -o no
-c "--methods 'foo': unknown; expected one of: .*two-phase" --methods none,foo
+c "--methods 'foo': unknown; expected one of: .*hybrid" --methods none,foo
 c "--methods ''" --methods ""
 c "--methods 'none,none': has none twice" --methods none,none
 c "--reference 'foo': unknown" --reference foo
@@ -168,7 +168,7 @@ PAGE
     for attempt in 1 2 3; do
       timeout 120 "$browser" --headless=new --no-sandbox --disable-gpu --user-data-dir="$work/profile$attempt" \
         --enable-logging=stderr --virtual-time-budget=10000 --window-size=$width,900 \
-        --dump-dom "file://$work/checked.html#left=none&right=two-phase&at=25" >.dom 2>.log
+        --dump-dom "file://$work/checked.html#left=none&right=hybrid&at=25" >.dom 2>.log
       if grep -q 'checked: opened' .dom; then break; fi
     done
     equals "$width px wide" "checked: opened at 25; 10 at 10 inset(0px 90% 0px 0px); 90 at 90 inset(0px 10% 0px 0px); left true; pictures true 9; spots true; fits true" \

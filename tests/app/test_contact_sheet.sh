@@ -20,7 +20,7 @@ equals "the page has the error" "1" "$(grep -c 'shoal: error: .*Bad.glb' out/ind
 equals "the page has both exit codes" "exit 0 exit 1" "$(grep -oE '^exit [0-9]' out/index.html | LC_ALL=C sort | paste -sd ' ')"
 rm -r models/Bad
 passes "without it" sheet models -o out --programs "$programs" --size 64x48
-passes "methods" sheet --methods box -o methods --programs "$programs" --size 64x48 -- --methods two-phase,none --triangles 200
+passes "methods" sheet --methods box -o methods --programs "$programs" --size 64x48 -- --methods hybrid,none --triangles 200
 equals "the methods' sheet is as wide as two cells" "990" \
   "$(perl -e 'open my $f, "<:raw", shift; read $f, my $d, 24; print unpack "N", substr $d, 16, 4' methods/sheet.png)"
 exits "a folder and methods" 2 sheet models --methods box

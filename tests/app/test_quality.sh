@@ -6,13 +6,13 @@ scripts=$here/../../scripts
 # A made-up scene of two methods and the one that is judged: which goals count as missed, and how cells are written.
 cat >rows.csv <<'CSV'
 scene,geometry,camera,slope,method,flip,psnr_db,hit_px_median,hit_px_p95,hit_px_p99,wrong_object,wrong_surface,ms,folder
-lake,normals,left,0,two-phase,0.0100,30,0.01,0.1,0.2,0.0005,0.001,5,out/a
+lake,normals,left,0,hybrid,0.0100,30,0.01,0.1,0.2,0.0005,0.001,5,out/a
 lake,normals,left,0,steel-2024,0.0095,30,0.01,0.1,0.2,0.0100,0.001,5,out/a
-lake,normals,right,0,two-phase,0.0101,30,0.05,0.1,0.2,0.0005,0.001,5,out/b
+lake,normals,right,0,hybrid,0.0101,30,0.05,0.1,0.2,0.0005,0.001,5,out/b
 lake,normals,right,0,steel-2024,0.0200,30,0.01,0.1,0.2,0.0100,0.001,5,out/b
-lake,displaced,left,0.05,two-phase,0.0190,30,,,,0.0100,0.001,5,out/c
+lake,displaced,left,0.05,hybrid,0.0190,30,,,,0.0100,0.001,5,out/c
 lake,displaced,left,0.05,steel-2024,0.0180,30,0.01,0.1,0.2,0.0400,0.001,5,out/c
-lake,displaced,left,0.15,two-phase,0.0390,30,0.01,0.1,0.2,0.0050,0.001,5,out/d
+lake,displaced,left,0.15,hybrid,0.0390,30,0.01,0.1,0.2,0.0050,0.001,5,out/d
 lake,displaced,left,0.15,none,0.0370,30,0.01,0.1,0.2,0.0010,0.001,5,out/d
 pit,normals,left,0.05,failed,,,,,,,,,out/e
 CSV
@@ -23,7 +23,7 @@ equals "the first row's" "" "$(grep '^| lake | left | 0 ' tables.md)"
 equals "FLIP over its goal, and a median" 1 "$(grep -c '^| lake | right | 0 | FLIP 0.0101 over 0.01; median hit error 0.050 px | `out/b/' tables.md)"
 equals "a fifth of steel-2024's" 1 "$(grep -c "displaced | left | 0.05 | wrong object 1.00 %, over a fifth of steel-2024's 4.00 % |" tables.md)"
 equals "the lowest" 1 "$(grep -c 'displaced | left | 0.15 | FLIP 0.0390, none 0.0370; wrong object 0.50 %, none 0.10 % |' tables.md)"
-equals "a cell of two cameras" 1 "$(grep -c '^| two-phase | 0.0100 / 0.0101\\\* | 0.05 / 0.05 |$' tables.md)"
+equals "a cell of two cameras" 1 "$(grep -c '^| hybrid | 0.0100 / 0.0101\\\* | 0.05 / 0.05 |$' tables.md)"
 passes "a summary" "$scripts/quality_tables" --summary rows.csv 64x48
 equals "means of the plane's rows" 1 "$(grep -c '^| steel-2024 | 2 | 0.014[78] | 1.00 |$' .out)"
 equals "rows that miss a goal" 3 "$(grep -c '^- `lake' .out)"
@@ -39,10 +39,10 @@ echo nothing >page.md
 "$scripts/quality_tables" --into page.md tables.md 2>.err && fail "a page without marks is refused"
 equals "and left as it is" nothing "$(cat page.md)"
 
-passes "a scene" "$scripts/quality" --size 32x24 --scenes box --methods two-phase,none --program "$shoal" -o "$work/q"
+passes "a scene" "$scripts/quality" --size 32x24 --scenes box --methods hybrid,none --program "$shoal" -o "$work/q"
 equals "nine runs of two methods, and a head" 19 "$(wc -l <q/rows.csv)"
 cp q/rows.csv first.csv
-passes "resumed" "$scripts/quality" --size 32x24 --scenes box --methods two-phase,none --program "$shoal" -o "$work/q" --resume
+passes "resumed" "$scripts/quality" --size 32x24 --scenes box --methods hybrid,none --program "$shoal" -o "$work/q" --resume
 equals "all kept" 9 "$(grep -c ': kept$' .out)"
 passes "the same rows" cmp q/rows.csv first.csv
 

@@ -45,7 +45,7 @@ r "--triangles '1': box cannot have so few" --triangles 1
 refuses 2 "--frames and --repeat exclude" "$shoal" render box -o f%d.png --frames 0:1 --repeat 2
 
 # --- Names
-r "--method 'foo': unknown; expected one of: .*two-phase" --method foo
+r "--method 'foo': unknown; expected one of: .*hybrid" --method foo
 r "option 'depth' of ray-traced: '9' is not allowed; expected a whole number from 1 to 8" --method ray-traced --set depth=9
 r "--methods: belongs to shoal compare" --methods none
 r "--reference: belongs to shoal compare" --reference none
@@ -87,7 +87,7 @@ r "--set slope" --set slope=-0.1
 r "--set octaves" --set octaves=1.5
 r "--set octaves" --set octaves=9
 r "--set fade 'steep': unknown" --set fade=steep
-r "unknown key" --set two-phase.nonsense=1
+r "unknown key" --set hybrid.nonsense=1
 r "unknown" --set three-phase.x=1
 
 # --- Outputs
@@ -130,7 +130,7 @@ equals "nothing was written" "" "$(ls)"
 
 # --- list
 passes "list methods" "$shoal" list methods
-equals "list methods has two-phase" "1" "$(grep -c '^two-phase ' .out)"
+equals "list methods has hybrid" "1" "$(grep -c '^hybrid ' .out)"
 equals "list methods has none" "1" "$(grep -c '^none ' .out)"
 passes "list surfaces" "$shoal" list surfaces
 equals "list surfaces begins with flat" "flat" "$(head -1 .out | cut -d' ' -f1)"

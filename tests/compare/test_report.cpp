@@ -122,7 +122,7 @@ TEST_CASE("report: one page with everything in it", "[report]") {
 TEST_CASE("report: a sweep as CSV", "[report]") {
   ReportSweep sweep{"slope", {"0.1", "a,b"}, {}};
   for (const std::string& value : sweep.values) {
-    ReportSweepPoint point{value, "two-phase", {4, 3, 5}, {}};
+    ReportSweepPoint point{value, "hybrid", {4, 3, 5}, {}};
     point.metrics.water.psnr_db = HUGE_VAL;
     point.metrics.water.flip = 0.25;
     sweep.points.push_back(point);
@@ -130,8 +130,8 @@ TEST_CASE("report: a sweep as CSV", "[report]") {
   const std::string csv = sweep_csv(sweep);
   CHECK(csv.rfind("slope,method,ms_median,flip_water,", 0) == 0);
   CHECK(count(csv, "\n") == 3);
-  CHECK(csv.find("\n0.1,two-phase,4,0.25,") != std::string::npos);
-  CHECK(csv.find("\n\"a,b\",two-phase,4,0.25,") != std::string::npos);
+  CHECK(csv.find("\n0.1,hybrid,4,0.25,") != std::string::npos);
+  CHECK(csv.find("\n\"a,b\",hybrid,4,0.25,") != std::string::npos);
   CHECK(count(csv, "inf") == 0);
   Report report = make_report();
   report.sweep = sweep;

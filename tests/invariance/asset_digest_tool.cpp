@@ -39,8 +39,8 @@ std::vector<View> read_views(const std::string& path) {
 // The reference draws materials, motion and water once each.
 std::vector<std::string> methods_of(const View& view) {
   const std::string name = view.asset + " " + view.camera;
-  if (name == "materials front" || name == "motion rider" || name == "water above") return {"two-phase", "ray-traced"};
-  return {"two-phase"};
+  if (name == "materials front" || name == "motion rider" || name == "water above") return {"hybrid", "ray-traced"};
+  return {"hybrid"};
 }
 
 const shoal::Camera& find_camera(const shoal::RenderScene& scene, const View& view) {

@@ -150,7 +150,7 @@ void run_one(const Job& job, const std::string& name, const shoal::RenderScene& 
 
 // What the loop over scenes and methods leaves out: rays for shadows, and the reference on displaced water and `tank`.
 void run_rays(const Job& job, Scenes& scenes) {
-  for (const char* method : {"two-phase", "ray-traced"})
+  for (const char* method : {"hybrid", "ray-traced"})
     run_one(job, "pool shadow-rays", scenes.get("pool"), method, shoal::Shadows::kRays);
   shoal::RenderScene pond = scenes.get("pond");
   for (shoal::WaterBody& body : pond.waters) body.surface.geometry = shoal::WaterGeometry::kDisplaced;

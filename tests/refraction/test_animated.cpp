@@ -65,7 +65,7 @@ TEST_CASE("animated: every stage of a moving scene's frame is that of the scene 
   settings.width_px = 96, settings.height_px = 64;
   settings.digests = true;
   settings.threads = 3;
-  settings.method = GENERATE("two-phase", "ray-traced");
+  settings.method = GENERATE("hybrid", "ray-traced");
   if (settings.method == "ray-traced") settings.shadows = Shadows::kRays;
   Renderer renderer(moving, settings);
   std::string first_picture;

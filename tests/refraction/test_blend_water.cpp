@@ -221,7 +221,7 @@ TEST_CASE("blend: above, in and through the water, seen from above and from unde
       {"under, level", {-2.2f, -0.5f, 2.2f}, {0.5f, -0.5f, -1}, 75},
   };
   for (const Place& place : places)
-    for (const char* method : {"two-phase", "none", "ray-traced"}) check_view(scene, place, method);
+    for (const char* method : {"hybrid", "none", "ray-traced"}) check_view(scene, place, method);
 }
 
 TEST_CASE("blend: every stage is the same for any threads, tiles and instruction set", "[blend]") {

@@ -167,7 +167,7 @@ std::vector<std::pair<std::string, Camera>> cameras_of(const RenderScene& scene,
 
 void check_scene(const std::string& name, std::uint64_t triangles, double share, double share_elsewhere) {
   const RenderScene scene = built_in(name, triangles);
-  for (const std::string method : {"two-phase", "none", "ray-traced"}) {
+  for (const std::string method : {"hybrid", "none", "ray-traced"}) {
     const RefractionOracle oracle(scene, method != "none");
     for (const auto& [camera_name, camera] : cameras_of(scene, name == "box")) {
       Tally t;

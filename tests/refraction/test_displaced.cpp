@@ -73,7 +73,7 @@ TEST_CASE("displaced: methods see the reference's surface, and through it nearly
     RenderScene plane = scene;
     for (WaterBody& body : plane.waters) body.surface.geometry = WaterGeometry::kNormals;
     for (const PlacedCamera& placed : scene.cameras)
-      for (const char* method : {"two-phase", "none"}) {
+      for (const char* method : {"hybrid", "none"}) {
         const Agreement a = compare(scene, placed.camera, method);
         CAPTURE(name, placed.name, method, a.water, a.mask, a.position, a.object, a.hits, a.far_hits);
         CHECK(a.water > 100);
@@ -107,14 +107,14 @@ TEST_CASE("displaced: an eye between plane and crest, or in a trough, is on the 
     const Vec3f eye =
         body.origin + Vec3f{static_cast<float>(place.x), static_cast<float>(y), static_cast<float>(place.z)};
     const Camera camera = shoal_test::camera_at(eye, eye + Vec3f{0.6f, in_crest ? -0.05f : -0.1f, 0.3f}, 1.0);
-    const Agreement a = compare(scene, camera, "two-phase");
+    const Agreement a = compare(scene, camera, "hybrid");
     CAPTURE(in_crest, a.water, a.mask, a.position, a.object, a.hits);
     CHECK(a.water > 50);
     CHECK(a.mask * 200 <= kWidth * kHeight);
     CHECK(a.position == 0);
     // What is in the water right before the eye is dimmed as by the reference.
     const Frame truth = render_scene(scene, camera, settings_of("ray-traced")),
-                shown = render_scene(scene, camera, settings_of("two-phase"));
+                shown = render_scene(scene, camera, settings_of("hybrid"));
     int same = 0, dry = 0;
     for (std::size_t i = 0; i < kWidth * kHeight; ++i) {
       if (image_of(truth, Aov::kWaterMask).uints[i] != 0 || image_of(truth, Aov::kIdTriangle).uints[i] == kNothing)
@@ -135,7 +135,7 @@ TEST_CASE("displaced: an eye between plane and crest, or in a trough, is on the 
 TEST_CASE("displaced: every stage is the same for any threads, tiles and instruction set", "[displaced]") {
   const RenderScene scene = wavy("box", 600, 0.1f);
   for (const PlacedCamera& placed : scene.cameras) {
-    FrameSettings settings = settings_of("two-phase");
+    FrameSettings settings = settings_of("hybrid");
     settings.digests = true;
     settings.isa = supported_isas().back(), settings.threads = 1;
     const Frame expected = render_scene(scene, placed.camera, settings);

@@ -192,7 +192,7 @@ TEST_CASE("image space: the mask of places outside of the frame") {
   CHECK(middle == 0);
   const std::vector<std::uint32_t> none = outside("distort", {{"strength", "0"}});
   CHECK(std::count(none.begin(), none.end(), 1u) == 0);
-  const std::vector<std::uint32_t> after = outside("two-phase", {});
+  const std::vector<std::uint32_t> after = outside("hybrid", {});
   CHECK(std::count(after.begin(), after.end(), 1u) == 0);
 }
 

@@ -106,7 +106,7 @@ TEST_CASE("invariance: a digest sees the camera, the method and the size") {
   CHECK(bent[0] != bent[1]);
   settings.method = "none";
   CHECK(render_all(scene, settings, how)[0] != bent[0]);
-  settings.method = "two-phase";
+  settings.method = "hybrid";
   settings.width_px = 132;
   CHECK(render_all(scene, settings, how)[0] != bent[0]);
 }

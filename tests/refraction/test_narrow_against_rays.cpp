@@ -42,7 +42,7 @@ RenderScene scene_of(const char* name, float slope, WaterGeometry geometry) {
 
 Tally compare(const RenderScene& scene, std::size_t camera) {
   Frame frames[3];
-  const char* methods[3] = {"two-phase", "ray-traced", "ray-traced"};
+  const char* methods[3] = {"hybrid", "ray-traced", "ray-traced"};
   for (int i = 0; i < 3; ++i) {
     FrameSettings settings;
     settings.method = methods[i];
@@ -71,7 +71,7 @@ Tally compare(const RenderScene& scene, std::size_t camera) {
 
 }  // namespace
 
-TEST_CASE("narrow phase: what two-phase finds is what rays find", "[refraction]") {
+TEST_CASE("narrow phase: what hybrid finds is what rays find", "[refraction]") {
   struct Case {
     const char* name;
     float slope;

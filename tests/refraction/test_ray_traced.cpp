@@ -317,7 +317,7 @@ TEST_CASE("ray-traced: many layers of glass, in one plane and one-sided, as the 
   for (const Camera& camera : {kAbove, kUnder}) {
     FrameSettings settings = traced(80, 60);
     const Frame truth = render_scene(built, camera, settings);
-    settings.method = "two-phase";
+    settings.method = "hybrid";
     const Frame raster = render_scene(built, camera, settings);
     // But for edges, where the broad phase is a quarter of a pixel off.
     std::size_t off = 0;

@@ -176,7 +176,7 @@ TEST_CASE("shadows are those of rays, in the air, through water and under it") {
     double margin;  // from edges
   };
   // Texels are under 2 cm here; look-ups reach 4 of them. Rays start a hair off their surface.
-  const How how = GENERATE(How{Shadows::kMap, "two-phase", 0.09}, How{Shadows::kRays, "two-phase", 1e-3},
+  const How how = GENERATE(How{Shadows::kMap, "hybrid", 0.09}, How{Shadows::kRays, "hybrid", 1e-3},
                            How{Shadows::kRays, "ray-traced", 1e-3});
   const bool dry = GENERATE(false, true);
   RenderScene scene = make_scene();

@@ -223,7 +223,7 @@ TEST_CASE("waves: without hidden slopes nothing changes", "[waves]") {
 
 TEST_CASE("waves: far water is the mean of its waves, without their noise", "[waves]") {
   const RenderScene filtered = wide_water(WaveFilter::kFootprint), plain = wide_water(WaveFilter::kNone);
-  for (const char* method : {"two-phase", "ray-traced"}) {
+  for (const char* method : {"hybrid", "ray-traced"}) {
     const std::vector<float> got = rendered(filtered, method, 1), noisy = rendered(plain, method, 1),
                              want = rendered(plain, method, 64);
     // From below the horizon (row 45) down: some thousand to a dozen metres away.

@@ -10,13 +10,13 @@ trap 'rm -rf "$work"' EXIT
 fail() { echo "category.sh: $*"; exit 1; }
 
 # The compile command of a method's file, to check a source for errors only.
-command=$(grep -m1 '"command":.*refraction/methods/two_phase\.cpp' "$1") || fail "$1 has no method two_phase"
+command=$(grep -m1 '"command":.*refraction/methods/hybrid\.cpp' "$1") || fail "$1 has no method hybrid"
 command=${command#*\"command\": \"} command=${command%\",*}
 command=${command//\\\"/\"} command=${command//\\\\/\\}
 command=$(sed -E 's/ -o [^ ]+/ /; s/ -M(T|F) [^ ]+//g; s/ -MM?D / /; s/ -c [^ ]+$/ -fsyntax-only /' <<<"$command")
 # The folder that it runs in stands on the line before it.
-directory=$(grep -m1 -B1 '"command":.*refraction/methods/two_phase\.cpp' "$1" | sed -nE 's/.*"directory": "([^"]*)".*/\1/p')
-[[ -d $directory ]] || fail "$1 has no folder of method two_phase"
+directory=$(grep -m1 -B1 '"command":.*refraction/methods/hybrid\.cpp' "$1" | sed -nE 's/.*"directory": "([^"]*)".*/\1/p')
+[[ -d $directory ]] || fail "$1 has no folder of method hybrid"
 
 # compiles CATEGORY: status 0 if the method compiles; messages in $work/CATEGORY.txt
 compiles() {

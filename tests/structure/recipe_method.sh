@@ -8,7 +8,7 @@
 #   ISA     the one instruction set that the copy is built for
 #
 # The recipe's file and its one line are taken from the page itself. They must be all that it takes: two objects are
-# compiled, no warning, and the command lists, renders and compares the method. As it stands there it is two-phase with
+# compiled, no warning, and the command lists, renders and compares the method. As it stands there it is hybrid with
 # its two functions written out, so it has that method's digests.
 set -uo pipefail
 folder=$(realpath -m "$1") expected=$(realpath "$2") main=$(realpath "$3") isa=$4
@@ -63,7 +63,7 @@ objects=$(grep -oE '[A-Za-z0-9_/.-]+\.cpp\.o' "$folder/after.log" | sed 's|.*/||
 diff <(cat "$folder/methods.before"; echo "$option") <("$shoal" list methods | awk '{ print $1 }') || fail "list methods"
 digests() { "$1" render box --camera grazing --size 64x48 --set surface=perlin --set slope=0.1 --shadows off --method "$2" --digest; }
 mine=$(digests "$shoal" "$option") || fail "no render"
-[[ $mine == "$(digests "$expected" two-phase)" ]] || fail "the recipe's method has other digests than two-phase"
+[[ $mine == "$(digests "$expected" hybrid)" ]] || fail "the recipe's method has other digests than hybrid"
 [[ $mine != "$(digests "$shoal" none)" ]] || fail "the recipe's method has the digests of none"
 "$shoal" compare box --size 32x24 --shadows off --repeat 1 --warmup 0 --set distance-field.resolution=16 --quiet \
   -o "$folder/compare" || fail "no compare"

@@ -1,6 +1,5 @@
-// two-phase: ours, the default. Exact path solver, error-bounded subdivision, and the true refracted ray against the
-// triangle that the broad phase found or, under waves and beside edges, against the BVH; each point is shaded once,
-// where that ray truly hits.
+// hybrid: exact path solver, error-bounded subdivision, and the true refracted ray against the triangle that the broad
+// phase found or, under waves and beside edges, against the BVH; each point is shaded once, where that ray truly hits.
 //
 // Source  Steel 2024 (horizontal-preserving virtual space); Liu et al. 2020 (broad and narrow phase).
 // Differs From both: the solver is exact (path_solver.h), edges are split to a bound in pixels (broad_phase.h), and the
@@ -10,14 +9,14 @@
 namespace shoal::inline SHOAL_ISA_NS {
 
 namespace {
-struct TwoPhase : TrueRays {
+struct Hybrid : TrueRays {
   static constexpr MethodCategory kCategory = MethodCategory::kHybrid;
 };
 }  // namespace
 
-Method two_phase() {
-  return ray_method<TwoPhase>(
-      "two-phase", "exact solver, bounded subdivision, true ray against the primitive or, under waves, the BVH",
+Method hybrid() {
+  return ray_method<Hybrid>(
+      "hybrid", "exact solver, bounded subdivision, true ray against the primitive or, under waves, the BVH",
       "Shoal; after Steel 2024 and Liu et al. 2020");
 }
 
