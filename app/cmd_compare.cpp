@@ -42,6 +42,8 @@ Drawn draw(const FrameRun& run, const Options& options, bool keep_linear, Progre
   // In a frame of its own, as `render` does: no buffer beside the picture is in the times.
   settings.aovs = options.frame.aovs | kHitAovs;
   settings.keep_linear = keep_linear;
+  // Pictures differ by refraction alone; times are those of each method's own reflections.
+  settings.reflections = options.frame.reflections.value_or(Reflections::kTraced);
   const auto renderer = run.make_renderer(settings, drawn.times);
   renderer->render(run.camera_of(0), run.time_of(0), drawn.frame);
   drawn.threads = renderer->threads();
@@ -102,6 +104,7 @@ Json percentiles_json(const Percentiles& p) {
 Json method_json(const ReportMethod& method) {
   Json json = Json::object();
   json["name"] = method.name;
+  json["category"] = method.category;
   json["ms"] = {{"median", json_double(method.times.median_ms)},
                 {"min", json_double(method.times.min_ms)},
                 {"n", method.times.n}};
@@ -111,6 +114,9 @@ Json method_json(const ReportMethod& method) {
   json["hit_error_m"] = percentiles_json(method.metrics.hits.error_m);
   json["wrong_object"] = json_double(method.metrics.hits.wrong_object);
   json["wrong_surface"] = json_double(method.metrics.hits.wrong_surface);
+  json["secondary_share"] = json_double(method.metrics.hits.secondary_share);
+  json["wrong_object_primary"] = json_double(method.metrics.hits.wrong_object_primary);
+  json["wrong_surface_primary"] = json_double(method.metrics.hits.wrong_surface_primary);
   json["spots"] = Json::array();
   for (const Spot& spot : method.metrics.spots) {
     json["spots"].push_back(
@@ -124,6 +130,8 @@ Json shared_settings(const CompareOptions& options, const LoadedScene& loaded, c
                      int threads) {
   Json settings = settings_json(options.reference, loaded, camera, threads);
   settings.erase("method");
+  if (!options.reference.frame.reflections)
+    settings["reflections"] = "traced in pictures; in times planar (raster, volume) or traced (hybrid, traced)";
   settings.erase("frames");
   settings["ppd"] = json_float(options.pixels_per_degree);
   settings["yee"] = options.yee;
@@ -192,6 +200,7 @@ class Compare {
     method.times = report_times(times);
     for (const MethodInfo& info : method_infos()) {
       if (name != info.name) continue;
+      method.category = info.category;
       method.description = info.description;
       method.source = info.source;
     }

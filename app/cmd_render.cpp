@@ -72,6 +72,7 @@ class Render {
     first_.width_px = frame.width_px;
     first_.height_px = frame.height_px;
     first_.water_pixels = frame.water_pixels;
+    first_.mean_fetches = frame.mean_fetches, first_.max_fetches = frame.max_fetches;
     first_.rays = frame.rays;
     first_.method_figures = frame.method_figures;
     if (options_.repeat > 1) first_.srgb8 = frame.srgb8;

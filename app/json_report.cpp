@@ -18,6 +18,12 @@ double peak_rss_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+const char* category_of(const std::string& method) {
+  for (const MethodInfo& info : method_infos())
+    if (method == info.name) return info.category;
+  return "";
+}
+
 // A method's option as a number or a truth value where it is one.
 Json option_value(const std::string& text) {
   if (text == "true" || text == "false") return text == "true";
@@ -189,7 +195,7 @@ Json settings_json(const Options& options, const LoadedScene& loaded, const Plac
   s["anisotropy"] = frame.anisotropy;
   s["shadows"] = shadows_name(frame.shadows);
   s["shadow-map"] = frame.shadow_map_px;
-  s["reflections"] = reflections_name(frame.reflections);
+  s["reflections"] = reflections_name(reflections_of(frame));
   s["exposure"] = json_float(frame.exposure_stops);
   s["tonemap"] = tone_map_name(frame.tone_map);
   s["background"] = background_json(scene.lighting.background);
@@ -212,6 +218,7 @@ Json render_report(const Options& options, const LoadedScene& loaded, const Plac
   Json r = Json::object();
   r["scene"] = options.scene.name;
   r["method"] = frame.method;
+  r["category"] = category_of(frame.method);
   r["size"] = {frame.width_px, frame.height_px};
   r["triangles"] = loaded.render.geometry.triangles.size();
   r["water_pixels"] = first_frame.water_pixels;
@@ -242,6 +249,9 @@ Json render_report(const Options& options, const LoadedScene& loaded, const Plac
     r["rays"] = Json::object();
     for (const auto& [kind, count] : first_frame.rays) r["rays"][kind] = count;
   }
+  r["counters"] = {
+      {"fetches_per_water_pixel",
+       {{"mean", json_double(std::round(first_frame.mean_fetches * 1e3) / 1e3)}, {"max", first_frame.max_fetches}}}};
   r["peak_rss_mb"] = json_double(std::round(peak_rss_mb() * 10) / 10);
   return r;
 }

@@ -73,7 +73,8 @@ void add_picture_options(CLI::App& command, RawOptions& raw) {
   add("--anisotropy", raw.anisotropy, "N", "probes along the longer side of a pixel in a texture, 1 to 16; 1");
   add("--shadows", raw.shadows, "off|map|rays", "of the sun; map");
   add("--shadow-map", raw.shadow_map, "N", "texels a side of the sun's shadow map, a power of two, 256 to 8192; 4096");
-  add("--reflections", raw.reflections, "environment|scene", "scene");
+  add("--reflections", raw.reflections, "environment|planar|traced",
+      "planar for methods of the categories raster and volume, traced for the others");
   add("--exposure", raw.exposure, "STOPS", "of the PNG; 0");
   add("--tonemap", raw.tonemap, "none|aces", "of the PNG; none");
   add("--background", raw.background, "R,G,B|environment",
@@ -87,7 +88,7 @@ void add_picture_options(CLI::App& command, RawOptions& raw) {
 
 void add_frame_options(CLI::App& command, RawOptions& raw) {
   const AddOption add = adder(command);
-  add("--method", raw.method, "NAME", "how water is refracted (shoal list methods); hybrid");
+  add("--method", raw.method, "NAME", "how water is refracted (shoal list methods); two-phase");
   add("--methods", raw.methods, "A,B", "of shoal compare");
   add("--reference", raw.reference, "NAME", "of shoal compare");
   add_picture_options(command, raw);

@@ -230,9 +230,12 @@ void read_frame_settings(const RawOptions& raw, FrameSettings& frame) {
     frame.shadows = static_cast<Shadows>(read_choice("--shadows", *raw.shadows, {"off", "map", "rays"}));
   }
   if (raw.shadow_map) frame.shadow_map_px = read_shadow_map(*raw.shadow_map);
+  if (raw.reflections && *raw.reflections == "scene")
+    throw UsageError(
+        "--reflections 'scene': is now planar (a rasterized layer) or traced (rays); expected one of them");
   if (raw.reflections)
     frame.reflections =
-        static_cast<Reflections>(read_choice("--reflections", *raw.reflections, {"environment", "scene"}));
+        static_cast<Reflections>(read_choice("--reflections", *raw.reflections, {"environment", "planar", "traced"}));
   if (raw.exposure)
     frame.exposure_stops = read_float("--exposure", *raw.exposure, -kMaxExposureStops, kMaxExposureStops);
   if (raw.tonemap) {
@@ -330,8 +333,14 @@ const char* geometry_name(WaterGeometry geometry) {
 const char* shadows_name(Shadows shadows) {
   return shadows == Shadows::kOff ? "off" : shadows == Shadows::kMap ? "map" : "rays";
 }
+Reflections reflections_of(const FrameSettings& frame) {
+  const MethodInfo* method = find_method(frame.method);
+  return frame.reflections.value_or(method ? method->reflections : Reflections::kTraced);
+}
 const char* reflections_name(Reflections reflections) {
-  return reflections == Reflections::kScene ? "scene" : "environment";
+  return reflections == Reflections::kEnvironment ? "environment"
+         : reflections == Reflections::kPlanar    ? "planar"
+                                                  : "traced";
 }
 const char* tone_map_name(ToneMap tone_map) { return tone_map == ToneMap::kNone ? "none" : "aces"; }
 

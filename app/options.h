@@ -73,6 +73,8 @@ SceneOptions read_scene_options(const RawOptions& raw);
 const char* geometry_name(WaterGeometry geometry);
 const char* shadows_name(Shadows shadows);
 const char* reflections_name(Reflections reflections);
+// Those in force: as given, else by the method's category.
+Reflections reflections_of(const FrameSettings& frame);
 const char* tone_map_name(ToneMap tone_map);
 
 }  // namespace shoal::app

@@ -25,7 +25,12 @@ struct Water {
     const WaterBody& body = pool_scene(kPoolSizes[0].triangles).waters.front();
     const PlacedWater flat{&body, nullptr, 0};
     std::int32_t eye_in_water = -1;
-    place_water({{&flat, 1}, stages.view(), find_method("hybrid", isa()).kernels.map, true, false},
+    place_water({{&flat, 1},
+                 stages.view(),
+                 find_method("two-phase", isa()).kernels.map,
+                 Reflections::kPlanar,
+                 Reflections::kPlanar,
+                 false},
                 {optics, eye_in_water});
     Random random;
     points.resize(3 * kPoints), ends.resize(3 * kPoints);

@@ -17,6 +17,7 @@ struct Hits {
   const std::vector<std::uint32_t>& kind;
   const std::vector<float>& position;
   const std::vector<std::uint32_t>& id;
+  const std::vector<std::uint32_t>& secondary;
 
   HitKind kind_at(std::size_t i) const { return static_cast<HitKind>(kind[i]); }
   Vec3f at(std::size_t i) const { return {position[3 * i], position[3 * i + 1], position[3 * i + 2]}; }
@@ -30,7 +31,8 @@ const AovImage& require_aov(const Frame& frame, Aov aov) {
 
 Hits hits_of(const Frame& frame) {
   return {require_aov(frame, Aov::kWaterMask).uints, require_aov(frame, Aov::kHitKind).uints,
-          require_aov(frame, Aov::kHitPosition).floats, require_aov(frame, Aov::kHitId).uints};
+          require_aov(frame, Aov::kHitPosition).floats, require_aov(frame, Aov::kHitId).uints,
+          require_aov(frame, Aov::kHitSecondary).uints};
 }
 
 // The drawable of a triangle; the number of drawables for none.
@@ -110,14 +112,19 @@ HitComparison compare_hits(const RenderScene& scene, const Camera& camera, const
   out.error_map_px.assign(pixels, -1.0f);
   out.wrong.assign(pixels, 0);
   std::vector<float> errors_px, errors_m;
-  std::uint64_t wrong_objects = 0, wrong_surfaces = 0;
+  std::uint64_t wrong_objects = 0, wrong_surfaces = 0, secondary = 0, primary_objects = 0, primary_surfaces = 0;
   for (std::size_t i = 0; i < pixels; ++i) {
     if (t.mask[i] == 0) continue;
     out.water[i] = true;
     ++out.water_pixels;
     out.wrong[i] = verdict(scene.geometry, t, m, i);
-    wrong_objects += (out.wrong[i] & HitComparison::kWrongObject) != 0;
-    wrong_surfaces += (out.wrong[i] & HitComparison::kWrongSurface) != 0;
+    const bool other_object = (out.wrong[i] & HitComparison::kWrongObject) != 0;
+    const bool other_surface = (out.wrong[i] & HitComparison::kWrongSurface) != 0;
+    wrong_objects += other_object, wrong_surfaces += other_surface;
+    if (t.secondary[i] != 0)
+      ++secondary;
+    else
+      primary_objects += other_object, primary_surfaces += other_surface;
     if (t.kind_at(i) != HitKind::kSurface || m.kind_at(i) != HitKind::kSurface) continue;
     errors_m.push_back(static_cast<float>(distance_m(t.at(i), m.at(i))));
     errors_px.push_back(static_cast<float>(screen.distance_px(t.mask[i], t.at(i), m.at(i))));
@@ -129,6 +136,10 @@ HitComparison compare_hits(const RenderScene& scene, const Camera& camera, const
   const auto water_pixels = static_cast<double>(out.water_pixels);
   out.wrong_object = static_cast<double>(wrong_objects) / water_pixels;
   out.wrong_surface = static_cast<double>(wrong_surfaces) / water_pixels;
+  out.secondary_share = static_cast<double>(secondary) / water_pixels;
+  const double primary_pixels = water_pixels - static_cast<double>(secondary);
+  out.wrong_object_primary = static_cast<double>(primary_objects) / primary_pixels;
+  out.wrong_surface_primary = static_cast<double>(primary_surfaces) / primary_pixels;
   return out;
 }
 

@@ -12,7 +12,8 @@ namespace shoal {
 // What a frame must have been drawn with.
 inline constexpr std::uint32_t kHitAovs =
     1u << static_cast<int>(Aov::kWaterMask) | 1u << static_cast<int>(Aov::kHitKind) |
-    1u << static_cast<int>(Aov::kHitPosition) | 1u << static_cast<int>(Aov::kHitId);
+    1u << static_cast<int>(Aov::kHitPosition) | 1u << static_cast<int>(Aov::kHitId) |
+    1u << static_cast<int>(Aov::kHitSecondary);
 
 // A point that is farther from the reference's than this is on the wrong surface.
 inline constexpr double kWrongSurface_m = 0.1;
@@ -26,6 +27,8 @@ struct HitComparison {
   std::uint64_t compared_pixels = 0;           // where reference and method both show a surface
   Percentiles error_px, error_m;               // over these
   double wrong_object = 0, wrong_surface = 0;  // shares of water_pixels; NaN where there are none
+  double secondary_share = 0;  // of water_pixels: the reference's ray crosses a secondary water interface
+  double wrong_object_primary = 0, wrong_surface_primary = 0;  // shares of the other water pixels
 
   // Row by row from the top.
   PixelMask water;                  // the reference's

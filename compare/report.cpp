@@ -56,29 +56,32 @@ std::string cell_text(const Column& column, const ReportMethod& method) {
 }
 
 std::string table(const Report& report) {
-  std::string out = "<div class=\"wide\"><table id=\"numbers\"><thead><tr><th>Method</th>";
+  std::string out = "<div class=\"wide\"><table id=\"numbers\"><thead><tr><th>Method</th><th>Category</th>";
   const std::vector<Column> list = columns(report);
   for (const Column& c : list) {
     out += std::string("<th>") + c.title + "<small>" + c.unit + "</small></th>";
   }
   out += "</tr></thead>\n<tbody>\n";
   for (const ReportMethod& method : report.methods) {
-    out += "<tr><td>" + code(method.name) + "</td>";
+    out += "<tr><td>" + code(method.name) + "</td><td>" + html_escape(method.category) + "</td>";
     for (const Column& c : list) {
       const double own = c.value(method);
       const auto any_other = [&](bool better) {
         return std::any_of(report.methods.begin(), report.methods.end(), [&](const ReportMethod& other) {
+          if (other.category != method.category) return false;
           const double v = c.value(other);
           return better == c.more_is_better ? v > own : v < own;
         });
       };
-      const bool best = any_other(false) && !any_other(true);  // better than some, and none is better
+      // Of its category: better than some, and none is better.
+      const bool best = any_other(false) && !any_other(true);
       out += std::string("<td") + (best ? " class=\"best\"" : "") + ">" + cell_text(c, method) + "</td>";
     }
     out += "</tr>\n";
   }
   out += "<tr><td>" + code(report.reference.name) + " <span class=\"soft\">(reference)</span></td><td>" +
-         short_number(report.reference.times.median_ms) + "</td><td colspan=\"" + std::to_string(list.size() - 1) +
+         html_escape(report.reference.category) + "</td><td>" + short_number(report.reference.times.median_ms) +
+         "</td><td colspan=\"" + std::to_string(list.size() - 1) +
          "\" class=\"soft\">what the others are measured by</td></tr>\n";
   return out + "</tbody></table></div>\n";
 }
@@ -88,6 +91,11 @@ std::string column_notes(const Report& report) {
   const auto note = [&](const char* term, const std::string& text) {
     out += std::string("<dt>") + term + "</dt><dd>" + text + "</dd>\n";
   };
+  note("Category",
+       "What a method may use. Raster: rasterized buffers alone. Volume: rays marched through voxels. Hybrid: rays "
+       "against "
+       "the scene for what the water refracts and reflects. Traced: rays alone. The best number of each category is "
+       "bold.");
   note("Time", "From the scene in memory and a new camera to the finished picture: the median of " +
                    std::to_string(report.reference.times.n) + " frames. Less is faster.");
   note("FLIP", "How much one would notice on flipping between the two pictures, 0 to 1, seen from where a degree is " +
@@ -131,21 +139,33 @@ std::string water_in_words(const Report& report) {
          (slope.empty() || slope == "null" ? "" : ", RMS slope " + html_escape(slope)) + ".";
 }
 
-// In words: which is closest, which is fastest.
+// In words: which is closest and which is fastest of each category that has several methods.
 std::string verdict(const Report& report) {
-  if (report.methods.size() < 2) return "";
-  const auto least = [&](auto value) {
-    return *std::min_element(report.methods.begin(), report.methods.end(),
-                             [&](const ReportMethod& a, const ReportMethod& b) { return value(a) < value(b); });
-  };
-  const ReportMethod close = least([](const ReportMethod& m) {
-    return std::isfinite(m.metrics.water.flip) ? m.metrics.water.flip : m.metrics.frame.flip;
-  });
-  const ReportMethod fast = least([](const ReportMethod& m) { return m.times.median_ms; });
-  return "<p><strong>Closest to the reference: " + code(close.name) + "</strong> (FLIP on water " +
-         short_number(close.metrics.water.flip) + ", " + short_number(close.times.median_ms) +
-         " ms). <strong>Fastest: " + code(fast.name) + "</strong> (" + short_number(fast.times.median_ms) +
-         " ms, FLIP on water " + short_number(fast.metrics.water.flip) + ").</p>\n";
+  std::vector<std::string> categories;
+  for (const ReportMethod& m : report.methods)
+    if (std::find(categories.begin(), categories.end(), m.category) == categories.end())
+      categories.push_back(m.category);
+  std::string out;
+  for (const std::string& category : categories) {
+    std::vector<ReportMethod> of;
+    for (const ReportMethod& m : report.methods)
+      if (m.category == category) of.push_back(m);
+    if (of.size() < 2) continue;
+    const auto least = [&](auto value) {
+      return *std::min_element(of.begin(), of.end(),
+                               [&](const ReportMethod& a, const ReportMethod& b) { return value(a) < value(b); });
+    };
+    const ReportMethod close = least([](const ReportMethod& m) {
+      return std::isfinite(m.metrics.water.flip) ? m.metrics.water.flip : m.metrics.frame.flip;
+    });
+    const ReportMethod fast = least([](const ReportMethod& m) { return m.times.median_ms; });
+    out += "<p>Of the category " + html_escape(category) + ": <strong>closest to the reference " + code(close.name) +
+           "</strong> (FLIP on water " + short_number(close.metrics.water.flip) + ", " +
+           short_number(close.times.median_ms) + " ms), <strong>fastest " + code(fast.name) + "</strong> (" +
+           short_number(fast.times.median_ms) + " ms, FLIP on water " + short_number(fast.metrics.water.flip) +
+           ").</p>\n";
+  }
+  return out;
 }
 
 std::string introduction(const Report& report) {

@@ -17,7 +17,7 @@ struct ReportTimes {
 
 // Pictures are PNG files' bytes.
 struct ReportMethod {
-  std::string name, description, source;
+  std::string name, category, description, source;
   ReportTimes times;
   FrameMetrics metrics;  // of the reference: empty
   std::string picture_png, flip_png, hit_png;

@@ -21,9 +21,10 @@ struct PassSettings {
   BinGrid grid;
   // Bounds of the pixels that the pass may draw, inclusive: the frame, or the refracted region's bounds.
   int x_min = 0, y_min = 0, x_max = -1, y_max = -1;
-  const std::uint8_t* tile_active = nullptr;  // [tiles] 0: nothing is binned there; null: all are active
+  const std::int32_t* tile_active = nullptr;  // [tiles] 0: nothing is binned there; null: all are active
   bool flip_facing = false;                   // of a planar reflection pass, which reverses every winding
   bool skip_blended = false;                  // meshlets of blended materials have a pass of their own
+  bool back_faces = false;                    // the back faces of one-sided materials are drawn, and nothing else
 };
 
 }  // namespace shoal
@@ -70,7 +71,8 @@ class TriangleSink {
     const WideI y1 = min((max_y - half) >> kSubpixelBits, WideI(pass_.y_max));
     active = active & (x0 <= x1) & (y0 <= y1);
     if (none(active)) return;
-    if (pass_.flip_facing) {
+    if (pass_.back_faces && two_sided) return;
+    if (pass_.flip_facing != pass_.back_faces) {
       const SnappedLanes t = b;
       b = c;
       c = t;

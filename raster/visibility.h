@@ -46,7 +46,8 @@ struct KeepAll {
   SHOAL_INLINE WideM operator()(std::int32_t, int, int, WideM cover) const { return cover; }
 };
 
-// An "alpha test" that receives the covered blocks instead: nothing is tested or written here (raster/fragments.h).
+// An "alpha test" that receives the covered blocks instead: nothing is written here (raster/fragments.h,
+// raster/behind.h).
 template <class T>
 concept TakesFragments = requires(const T& t, std::int32_t id, int block, WideM cover, WideF depth) {
   t.fragment(id, block, block, cover, depth);
@@ -70,6 +71,11 @@ class TileRaster {
         WideF(0.0f).store(out_.depth.data() + at);
         WideI(kNoId).store(out_.id.data() + at);
       }
+    start_over();
+  }
+
+  // Keeps what is in the tile, to be drawn over.
+  void start_over() {
     const int regions = ((x1_ - x0_ + kRegionSize - 1) / kRegionSize) * ((y1_ - y0_ + kRegionSize - 1) / kRegionSize);
     for (int r = 0; r < regions && r < kMaxRegions; ++r)
       for (float& f : farthest_[r]) f = 0.0f;
@@ -189,6 +195,10 @@ class TileRaster {
     const WideF depth =
         clamp((fx * WideF(plane.dx) + fy * WideF(plane.dy)) + WideF(plane.d0), WideF(plane.lo), WideF(plane.hi));
     if constexpr (TakesFragments<AlphaTest>) {
+      if constexpr (kAlphaTested && AlphaTest::kTests) {
+        cover = cover & alpha_(id, block_col * 4, block_row * 4, cover);
+        if (none(cover)) return;
+      }
       alpha_.fragment(id, block_col, block_row, cover, depth);
     } else {
       keep_nearest<kAlphaTested>(block_col, block_row, cover, depth, id);

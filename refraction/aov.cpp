@@ -84,7 +84,8 @@ const std::vector<Row>& rows() {
       {.info = {Aov::kHitKind, "hit.kind", "", true}},
       {.info = {Aov::kHitPosition, "hit.position", "XYZ", false}},
       {.info = {Aov::kHitId, "hit.id", "", true}, .count = &hit_of},
-      {.info = {Aov::kHitOutside, "hit.outside", "", true}},
+      {.info = {Aov::kHitApproximate, "hit.approximate", "", true}},
+      {.info = {Aov::kHitSecondary, "hit.secondary", "", true}},
   };
   return all;
 }

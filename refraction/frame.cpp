@@ -17,7 +17,8 @@ void draw_sample(const FrameIn& in, const ViewState& view, const FrameOut& out, 
 
   {  // 1 Water: where each body is, seen from the eye, and which one the eye is in.
     Stage stage(run, "water");
-    place_water({scene.water, view.view, in.method.map, in.reflects_scene, in.method.whole_scene},
+    const Reflections total = in.method.traces ? Reflections::kTraced : Reflections::kPlanar;
+    place_water({scene.water, view.view, in.method.map, in.reflections, total, in.method.whole_scene},
                 {work.water, out.eye_in_water});
     clear_blended(t);
   }
@@ -34,7 +35,10 @@ void draw_sample(const FrameIn& in, const ViewState& view, const FrameOut& out, 
     Stage stage(run, "direct.visibility");
     const AlphaTestIn alpha{scene.shading, view.view, frame, nullptr, nullptr, nullptr};
     const TilePassIn pass{&work.outline_bins, work.bins, in.grids.tiles, 0, kernels.direct_alpha_test, alpha};
-    stage.for_each(in.grids.tile_count(), [&](std::size_t tile) { kernels.draw_tile(pass, t.direct, tile); });
+    if (in.method.whole_scene && !work.water.empty())
+      draw_scene_then_water(in, pass, out, stage);
+    else
+      stage.for_each(in.grids.tile_count(), [&](std::size_t tile) { kernels.draw_tile(pass, t.direct, tile); });
   }
   if (any_displaced(work.water)) {
     Stage stage(run, "water.surface");

@@ -23,13 +23,14 @@ struct FrameIn {
   const FrameKernels& kernels;
   const MethodKernels& method;
   const MethodState& state;
-  bool reflects_scene;  // --reflections
+  Reflections reflections;
   PostSettings post;
 };
 
 // The memory of the passes, kept between frames.
 struct FrameWork {
   PassBins bins, outline_bins;
+  PassBins back_bins;  // the back faces of a layer
   PassBins blended_bins, blended_reflected_bins;
   BinGrid blended_regions;               // of the frame
   std::vector<FragmentLists> fragments;  // [threads]
@@ -37,6 +38,7 @@ struct FrameWork {
   std::vector<WaterOptics> water;
   std::vector<WaterCount> counts;  // [regions]
   WaterRegions regions;
+  EdgeMap edges[2];  // [WaterPassKind] of the layers
 };
 
 // What a frame counts, all samples together.
@@ -44,6 +46,8 @@ struct FrameCounts {
   std::uint64_t water_pixels = 0;
   std::uint64_t subdivision_capped = 0;  // triangles that reached the subdivision's level cap
   RayCounts rays;
+  std::uint64_t fetches = 0;      // of triangles from layers, by all water pixels
+  std::uint32_t max_fetches = 0;  // by one of them
 };
 
 struct FrameOut {

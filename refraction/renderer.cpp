@@ -97,6 +97,7 @@ struct Renderer::Impl {
   std::unique_ptr<RenderScene> moved;  // the renderer's own copy, where the scene is animated
   const RenderScene& scene;
   const FrameSettings settings;
+  const Reflections reflections;
   const FrameKernels& kernels;
   const Method& method;
   MethodState state;
@@ -131,6 +132,7 @@ struct Renderer::Impl {
       : moved(s.moves() ? std::make_unique<RenderScene>(s) : nullptr),
         scene(moved ? *moved : s),
         settings(given),
+        reflections(given.reflections.value_or(default_reflections(find_method(given.method, given.isa).category))),
         kernels(frame_kernels(given.isa)),
         method(find_method(given.method, given.isa)),
         pool(given.threads > 0 ? given.threads : available_threads()),
@@ -139,9 +141,9 @@ struct Renderer::Impl {
         blended(blended_meshlets(scene)) {
     if (settings.anisotropy != 1)
       for (Material& m : materials) m.set_anisotropy(settings.anisotropy);
-    const bool waves = has_waves(scene), image_space = method.kernels.lights_layer;
+    const bool waves = has_waves(scene);
     grids = make_frame_grids(settings.width_px, settings.height_px, settings.tile_px,
-                             waves && image_space ? kWaveMargin_px : 0);
+                             waves && method.kernels.searches ? kWaveMargin_px : 0);
     read_method_options(method.name, method.options, settings.method_options, state);
     outlines.build(scene.waters);
     build_trace(waves);
@@ -162,9 +164,10 @@ struct Renderer::Impl {
   // Rays that the frame counts: those of the reference and of traced shadows.
   bool counts_rays() const { return traces_all() || settings.shadows == Shadows::kRays; }
 
-  // The BVHs that rays are traced against. Corners are kept where every pixel traces rays.
+  // The BVHs that rays are traced against; none where no ray is traced. Corners are kept where every pixel traces rays.
   void build_trace(bool waves) {
-    if (!has_water() && !counts_rays()) return;
+    const bool traced_water = method.kernels.traces || reflections == Reflections::kTraced;
+    if (!(has_water() && traced_water) && !counts_rays()) return;
     bvh.build(scene.geometry, scene.materials, Bvh16::Content::kOpaque, waves || counts_rays(), pool);
     trace.bvh = &bvh;
     if (!traces_all() || blended.empty()) return;
@@ -210,15 +213,19 @@ struct Renderer::Impl {
   void allocate_frame() {
     needs.water = has_water();
     needs.lit_layer = method.kernels.lights_layer;
+    needs.behind = method.kernels.searches_behind != nullptr && method.kernels.searches_behind(state);
     needs.blended = !blended.empty();
     needs.capture = captures();
     needs.linear = settings.spp > 1 || settings.digests || settings.keep_linear;
     allocate(targets, grids, needs);
     const std::size_t threads = static_cast<std::size_t>(pool.threads());
     work.bins = make_bins(scene.geometry.meshlets.size());
+    if (needs.behind) work.back_bins = make_bins(scene.geometry.meshlets.size());
     work.outline_bins.work_items.resize(scene.waters.size());
     work.counts.resize(grids.frame.region_count());
     work.regions.resize(grids);
+    if (needs.water && method.kernels.searches)
+      for (EdgeMap& edges : work.edges) edges.resize(grids.layers.grid);
     if (needs.water) {
       work.scratch.resize(threads);
       std::memset(static_cast<void*>(work.scratch.data()), 0, threads * sizeof(RegionScratch));
@@ -260,7 +267,7 @@ struct Renderer::Impl {
         kernels,
         method.kernels,
         state,
-        settings.reflections == Reflections::kScene,
+        reflections,
         {settings.exposure_stops, settings.tone_map == ToneMap::kAces ? ToneCurve::kAces : ToneCurve::kNone}};
     draw_sample(in, view_state, {targets, work, counts, view_state.eye_in_water}, {pool, clock, digests});
   }
@@ -293,7 +300,7 @@ struct Renderer::Impl {
 
   void render(const Camera& camera, double time_s, Frame& out) {
     const FloatModeGuard mode;
-    StageDigests digests(targets, needs, grids, work.regions.layer);
+    StageDigests digests(targets, needs, grids, work.regions.layers);
     StageDigests* wanted = settings.digests ? &digests : nullptr;
     clock.reset();
     if (moved) move(camera, time_s);
@@ -322,7 +329,7 @@ struct Renderer::Impl {
         set_sample(camera, sample_position(s, settings.spp));
         v.sample = s;
         v.last_sample = s + 1 == settings.spp;
-        counts.water_pixels = 0;
+        counts.water_pixels = 0, counts.fetches = 0;
         sample(nullptr);
         if (s == 0 && !captures()) out.water_pixels = counts.water_pixels;
       }
@@ -342,6 +349,9 @@ struct Renderer::Impl {
     out.stages_ms = clock.stages();
     out.frame_ms = clock.total_ms();
     out.subdivision_capped = counts.subdivision_capped;
+    out.max_fetches = counts.max_fetches;
+    out.mean_fetches =
+        counts.water_pixels == 0 ? 0 : static_cast<double>(counts.fetches) / static_cast<double>(counts.water_pixels);
     out.method_figures.clear();
     if (state.data != nullptr) out.method_figures = state.data->figures();
     out.rays.clear();

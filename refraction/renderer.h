@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "core/isa.h"
 #include "raster/camera.h"
+#include "refraction/data/reflections.h"
 #include "refraction/methods/method_info.h"
 #include "scene/hit_kind.h"
 #include "scene/scene.h"
@@ -19,8 +21,6 @@ namespace shoal {
 
 // Shadows of the sun, the first directional light.
 enum class Shadows : std::uint8_t { kOff, kMap, kRays };
-// What rays hit that water reflects: the background alone, or the scene.
-enum class Reflections : std::uint8_t { kEnvironment, kScene };
 enum class ToneMap : std::uint8_t { kNone, kAces };
 
 // Every buffer that can be had beside the picture. Names and channels: aov_infos().
@@ -37,7 +37,8 @@ enum class Aov : std::uint8_t {
   kHitKind,
   kHitPosition,
   kHitId,
-  kHitOutside,
+  kHitApproximate,
+  kHitSecondary,
   kCount
 };
 struct AovInfo {
@@ -49,7 +50,7 @@ struct AovInfo {
 const std::vector<AovInfo>& aov_infos();
 
 struct FrameSettings {
-  std::string method = "hybrid";
+  std::string method = "two-phase";
   std::map<std::string, std::string> method_options;  // KEY -> VALUE; an unknown key is a UsageError
   int width_px = 1280, height_px = 720;               // 1 to 16384
   int spp = 1;                                        // 1 to 256
@@ -58,8 +59,8 @@ struct FrameSettings {
   Isa isa = best_isa();                               // see supported_isas()
   int anisotropy = 1;                                 // 1 (none) to 16
   Shadows shadows = Shadows::kMap;
-  int shadow_map_px = 4096;  // a power of two, 256 to 8192
-  Reflections reflections = Reflections::kScene;
+  int shadow_map_px = 4096;                // a power of two, 256 to 8192
+  std::optional<Reflections> reflections;  // none: by the method's category (default_reflections)
   float exposure_stops = 0;
   ToneMap tone_map = ToneMap::kNone;
   std::uint32_t aovs = 0;    // bit 1 << int(Aov)
@@ -87,6 +88,9 @@ struct Frame {
   std::uint64_t subdivision_capped = 0;                        // triangles that reached the subdivision's level cap
   std::vector<std::pair<std::string, double>> method_figures;  // what the method itself reports; mostly nothing
   std::vector<std::pair<std::string, std::uint64_t>> rays;     // traced, by kind; empty where none were
+  // Triangles that raster methods fetched from layers, by water pixel, both directions together; of one sample.
+  double mean_fetches = 0;
+  std::uint32_t max_fetches = 0;
 };
 
 // Holds what does not depend on camera and time: meshlets, buffers, threads; of an animated scene a copy of its own,

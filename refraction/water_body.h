@@ -11,6 +11,11 @@ namespace shoal {
 void draw_water_body(const FrameIn& in, const ViewState& view, const WaterOptics& optics, const FrameOut& out,
                      const Run& run);
 
+// The direct pass of a method whose layer is the frame without its water: the scene into Targets::refracted, then the
+// outlines of the water over it into Targets::direct.
+//   pass  of the direct pass, outlines first
+void draw_scene_then_water(const FrameIn& in, const TilePassIn& pass, const FrameOut& out, Stage& stage);
+
 // Composites the blended materials of the direct pass into Targets::blended_direct.
 void blend_in_front(const FrameIn& in, const ViewState& view, const FrameOut& out, const Run& run);
 

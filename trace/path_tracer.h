@@ -158,6 +158,8 @@ class PathTracer {
     if (path.level == 1) {
       out_.covered = select(lanes, WideF(1.0f), out_.covered);
       recorder_.water(at, lanes);
+    } else if (any(counted)) {
+      recorder_.secondary(counted);
     }
 
     const Vec3<WideF> weight = next.weight;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "core/blocked_image.h"
 #include "raster/bin.h"
@@ -24,6 +26,18 @@ struct LayerGrid {
     const std::size_t margin = static_cast<std::size_t>(margin_px / kRegionSize),
                       across = static_cast<std::size_t>(frame.regions_x);
     return (of_frame / across + margin) * static_cast<std::size_t>(grid.regions_x) + of_frame % across + margin;
+  }
+};
+
+// Which regions of a body's layers are drawn: [regions of the layers' grid] 0: not drawn.
+struct LayerRegions {
+  std::vector<std::int32_t> drawn;
+  std::vector<std::int32_t> behind[2];  // [WaterPassKind] the second layers
+  std::vector<std::int32_t> lit;        // the lit layer of an image-space method: LitState
+  void resize(const LayerGrid& layers) {
+    lit.resize(layers.grid.region_count());
+    drawn.resize(layers.grid.region_count());
+    for (std::vector<std::int32_t>& regions : behind) regions.resize(layers.grid.region_count());
   }
 };
 

@@ -16,13 +16,17 @@ struct alignas(64) HitBlock {
   // by itself writes refracted_position in every scene.
   std::int32_t refracted_triangle[16], reflected_triangle[16];
   float refracted_position[3][16], reflected_position[3][16];
+  std::int32_t fetches[16];  // of each pixel, from the layers of both directions
+  // Bit i: the ray of lane i does not hit the triangle, which is only the method's nearest candidate.
+  std::uint16_t refracted_approximate, reflected_approximate;
+  std::uint16_t reflected_aimed;  // bit i: lane i shows what lies in the direction of reflected_position instead
 };
 
 // What an image-space method fetched from the lit layer.
 struct alignas(64) FetchedBlock {
-  float radiance[3][16];        // linear, absorbed on its way to the surface
-  float position_world[3][16];  // of the point fetched; filled where it is captured
-  std::int32_t outside[16];     // 1: the place lies outside of the frame; filled where it is captured
+  float radiance[3][16];         // linear, absorbed on its way to the surface
+  float position_world[3][16];   // of the point fetched; filled where it is captured
+  std::int32_t approximate[16];  // 1: the place lies outside of the frame; filled where it is captured
 };
 
 // The light of rays that cross a secondary water interface.

@@ -10,7 +10,7 @@ struct StageDigests::Stage {
 };
 
 StageDigests::StageDigests(const Targets& targets, const TargetNeeds& needs, const FrameGrids& grids,
-                           const std::vector<std::uint8_t>& layer_regions)
+                           const LayerRegions& layer_regions)
     : targets_(targets), needs_(needs), grids_(grids), layer_regions_(layer_regions) {}
 StageDigests::~StageDigests() = default;
 
@@ -27,7 +27,7 @@ namespace {
 // Rows of pixels; with a region, only the pixels of its cells.
 template <class T>
 void add_rows(Digest& digest, const FrameGrid& grid, const AlignedArray<T>& buffer,
-              const std::vector<std::uint8_t>* region) {
+              const std::vector<std::int32_t>* region) {
   std::vector<T> row;
   for (int y = 0; y < grid.height_px; ++y) {
     row.clear();
@@ -51,7 +51,10 @@ void StageDigests::add(const char* stage) {
   visit_planes(targets_, needs_, [&](const TargetInfo& info, const auto& plane) {
     if (!info.exists || info.stage == nullptr || std::string_view(info.stage) != stage) return;
     if (info.of_layers)
-      add_rows(digest_of(stage), grids_.layers.grid, plane, &layer_regions_);
+      add_rows(digest_of(stage), grids_.layers.grid, plane,
+               info.regions == 0   ? &layer_regions_.drawn
+               : info.regions == 3 ? &layer_regions_.lit
+                                   : &layer_regions_.behind[info.regions - 1]);
     else
       add_rows(digest_of(stage), grids_.frame, plane, nullptr);
   });

@@ -15,9 +15,9 @@ namespace shoal {
 
 class StageDigests {
  public:
-  //   all of them outlive this;  layer_regions: [regions of the layers] 1: drawn
+  // All of them outlive this.
   StageDigests(const Targets& targets, const TargetNeeds& needs, const FrameGrids& grids,
-               const std::vector<std::uint8_t>& layer_regions);
+               const LayerRegions& layer_regions);
   ~StageDigests();
 
   // Adds the planes of one stage as they are now: once, or once for each body of water that shows. Nothing where the
@@ -36,7 +36,7 @@ class StageDigests {
   const Targets& targets_;
   const TargetNeeds& needs_;
   const FrameGrids& grids_;
-  const std::vector<std::uint8_t>& layer_regions_;
+  const LayerRegions& layer_regions_;
   std::vector<std::unique_ptr<Stage>> stages_;
 };
 

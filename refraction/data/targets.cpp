@@ -12,6 +12,7 @@ void allocate(Targets& targets, const FrameGrids& grids, const TargetNeeds& need
   });
   targets.direct.grid = grids.frame;
   targets.refracted.grid = targets.reflected.grid = grids.layers.grid;
+  targets.refracted_behind.grid = targets.reflected_behind.grid = grids.layers.grid;
   if (needs.blended) {
     targets.blended_direct.resize(grids.frame);
     if (needs.water) targets.blended_refracted.resize(grids.frame), targets.blended_reflected.resize(grids.frame);
@@ -29,7 +30,8 @@ void clear_captured(Targets& targets) {
   for (PlaneXyz* planes : {&g.position_world, &g.normal_world, &g.base_color}) fill(*planes, 0.0f);
   fill(g.metallic, 0.0f), fill(g.roughness, 0.0f);
   HitPoints& h = targets.hits;
-  fill(h.kind, static_cast<std::int32_t>(HitKind::kNoWater)), fill(h.id, kNoId), fill(h.outside, 0);
+  fill(h.kind, static_cast<std::int32_t>(HitKind::kNoWater)), fill(h.id, kNoId), fill(h.approximate, 0),
+      fill(h.secondary, 0);
   fill(h.position_world, 0.0f), fill(h.virtual_world, 0.0f);
   InterfaceTarget& i = targets.interface;
   fill(i.t, 0.0f), fill(i.slope_variance, 0.0f);

@@ -43,7 +43,9 @@ struct HitPoints {
   IntPlane id;              // triangle, or kNoId
   PlaneXyz position_world;  // 0 where the kind has no point
   PlaneXyz virtual_world;   // where the point appears through flat water
-  IntPlane outside;         // 1: an image-space method sampled its layer outside of the frame
+  IntPlane secondary;       // 1: the ray that the pixel shows crosses a secondary water interface
+  IntPlane approximate;     // 1: the pixel shows a candidate that its ray does not hit (HitBlock), or an image-space
+                            // method sampled its layer outside of the frame
 };
 
 // The refracted layer of an image-space method, lit.
@@ -64,6 +66,7 @@ struct WaterLight {
 
 struct Targets {
   VisibilityBuffer direct, refracted, reflected;
+  VisibilityBuffer refracted_behind, reflected_behind;  // the nearest triangles behind those of the layers
   BlendLayer blended_direct, blended_refracted, blended_reflected;
   LitLayer layer;
   InterfaceTarget interface;
@@ -78,6 +81,7 @@ struct Targets {
 struct TargetNeeds {
   bool water = false;      // the scene has water
   bool lit_layer = false;  // the method lights its layer
+  bool behind = false;     // the method searches second layers
   bool blended = false;    // the scene has blended materials
   bool capture = false;    // digests or AOVs are wanted
   bool linear = false;     // linear light is kept or averaged
@@ -89,6 +93,7 @@ struct TargetInfo {
   bool of_layers;     // on the layers' grid, drawn regions only; else on the frame's
   bool exists;
   const char* aov = nullptr;  // the AOV that shows the target as it is (refraction/aov.cpp has those that convert)
+  int regions = 0;  // of LayerRegions, what the target fills: 0 drawn, 1, 2 behind (refracted, reflected), 3 lit
 };
 
 // Calls visit(TargetInfo, plane) for every plane of every target in the order of their digests.
@@ -104,7 +109,13 @@ void visit_planes(T& t, const TargetNeeds& needs, Visit visit) {
   visit(TargetInfo{"depth.refracted", true, needs.water}, t.refracted.depth);
   visit(TargetInfo{"visibility.reflected", true, needs.water}, t.reflected.id);
   visit(TargetInfo{"depth.reflected", true, needs.water}, t.reflected.depth);
-  const TargetInfo layer{"layer", false, needs.water && needs.lit_layer};
+  visit(TargetInfo{"visibility.refracted.behind", true, needs.water && needs.behind, nullptr, 1},
+        t.refracted_behind.id);
+  visit(TargetInfo{"depth.refracted.behind", true, needs.water && needs.behind, nullptr, 1}, t.refracted_behind.depth);
+  visit(TargetInfo{"visibility.reflected.behind", true, needs.water && needs.behind, nullptr, 2},
+        t.reflected_behind.id);
+  visit(TargetInfo{"depth.reflected.behind", true, needs.water && needs.behind, nullptr, 2}, t.reflected_behind.depth);
+  const TargetInfo layer{"layer", true, needs.water && needs.lit_layer, nullptr, 3};
   xyz(layer, t.layer.radiance), xyz(layer, t.layer.position_world);
   const TargetInfo interface { "interface", false, needs.water&& needs.capture };
   visit(interface, t.interface.t), xyz(interface, t.interface.normal_world);
@@ -119,7 +130,8 @@ void visit_planes(T& t, const TargetNeeds& needs, Visit visit) {
   visit(TargetInfo{"hit", false, needs.capture}, t.hits.id);
   xyz({"hit", false, needs.capture, "hit.position"}, t.hits.position_world);
   xyz({nullptr, false, needs.capture}, t.hits.virtual_world);
-  visit(TargetInfo{nullptr, false, needs.capture, "hit.outside"}, t.hits.outside);
+  visit(TargetInfo{nullptr, false, needs.capture, "hit.approximate"}, t.hits.approximate);
+  visit(TargetInfo{nullptr, false, needs.capture, "hit.secondary"}, t.hits.secondary);
   xyz(TargetInfo{nullptr, false, needs.water}, t.water_light.radiance);
   const TargetInfo lit{"lit", false, needs.linear};
   visit(lit, t.lit.red), visit(lit, t.lit.green), visit(lit, t.lit.blue), visit(lit, t.lit.alpha);

@@ -6,6 +6,7 @@
 #include "raster/cull.h"
 #include "raster/setup.h"
 #include "refraction/broad/broad_phase.h"
+#include "refraction/data/reflections.h"
 #include "water/placed_water.h"
 
 namespace shoal {
@@ -17,10 +18,12 @@ struct WaterOptics {
   BroadPhase map;                  // the map that its refracted layer is drawn with: the method's choice
   float near_m = 0;                // of the camera: displaced water nearer than this is not crossed
   RayDifferential<float> pixel{};  // of the camera's rays
-  bool reflects_scene = false;     // its surface reflects the scene on the eye's side, not the background alone
-  bool whole_scene = false;        // its layer is the whole scene without water, not the far side of the plane alone
+  Reflections reflections = Reflections::kEnvironment;  // what its surface reflects on the eye's side
+  bool whole_scene = false;  // its layer is the whole scene without water, not the far side of the plane alone
   const WaterBody& body() const { return *water.body; }
   const WaterSurface* surface() const { return water.surface; }
+  // Does the surface reflect the scene, not the background alone?
+  bool reflects_scene() const { return reflections != Reflections::kEnvironment; }
 };
 
 enum class WaterPassKind : std::uint8_t { kRefracted, kReflected };

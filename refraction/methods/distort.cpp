@@ -37,6 +37,12 @@ struct Distort : StraightRays {
                   in.options<Options>().strength);
   }
 
+  static LayerPlace<WideF> planar_place(const SampleIn& in) {
+    const Options& options = in.options<Options>();
+    return pushed(in.view(), in.narrow.grids.frame, in.block.x_px, in.block.y_px, in.at,
+                  options.reflection ? options.strength : 0.0f);
+  }
+
   // What a flat mirror shows at the pushed place: that place's own reflected ray.
   static PixelRays<WideF> reflected_rays(const PixelRaysIn& in) {
     const Options& options = *static_cast<const Options*>(in.options);

@@ -9,6 +9,7 @@
 #include "core/isa.h"
 #include "refraction/data/category.h"
 #include "refraction/data/options.h"
+#include "refraction/narrow/layer_edges.h"
 #include "refraction/narrow/scene_hits.h"
 #include "refraction/passes/blend_pass.h"
 #include "refraction/passes/direct_pass.h"
@@ -34,13 +35,15 @@ struct FrameKernels {
   void (*outline_front_end)(const OutlinePassIn&, const BinsOut&);
   void (*direct_front_end)(const DirectPassIn&, const BinsOut&, std::size_t work_item);
   void (*draw_tile)(const TilePassIn&, VisibilityBuffer&, std::size_t tile);
+  void (*draw_tile_behind)(const TilePassIn&, const VisibilityBuffer& nearest, VisibilityBuffer&, std::size_t tile);
+  void (*find_edges)(const VisibilityBuffer&, const std::int32_t* drawn, EdgeMap&, std::size_t region);
   AlphaTestFunction direct_alpha_test, refracted_alpha_test, reflected_alpha_test;
+  void (*draw_tile_over)(const TilePassIn&, const VisibilityBuffer& under, VisibilityBuffer&, std::size_t tile);
   void (*draw_displaced_water)(const DisplacedWaterIn&, VisibilityBuffer&, std::size_t region);
   WaterCount (*count_water)(const VisibilityBuffer& direct, std::int32_t body, std::size_t region);
   void (*refracted_front_end)(const LayerPassIn&, const BinsOut&, std::size_t work_item);
   void (*reflected_front_end)(const LayerPassIn&, const BinsOut&, std::size_t work_item);
   void (*blended_front_end)(const BlendedPassIn&, const BinsOut&, std::size_t work_item);
-  void (*light_layer)(const LightLayerIn&, LitLayer&, std::size_t region);
   void (*find_interface)(const InterfaceIn&, const InterfaceOut&, std::size_t region);
   void (*reflected_hits)(const ReflectedHitsIn&, HitBlock* hits, std::size_t region);
   void (*layer_from_hits)(const LayerFromHitsIn&, VisibilityBuffer&, std::size_t region);
@@ -65,7 +68,9 @@ struct MethodKernels {
   bool draws_layer = true;     // false: the method finds hits by itself, and no refracted layer is drawn
   bool follows_waves = false;  // its rays follow the waves' normals: the layer of flat water is not valid under waves
   bool lights_layer = false;   // an image-space method: the layer is lit, and the narrow phase fetches from it
-  bool whole_scene = false;    // the layer is the whole scene without its water, not the plane's far side alone
+  bool traces = false;         // its rays may be traced against the BVH
+  bool searches = false;       // it searches the layers along bent rays: they are drawn under waves too, and widened
+  bool whole_scene = false;    // the layer is the frame without its water, drawn once for the direct pass too
   bool misses = false;         // the method may find nothing where there is something
   PixelRaysFunction rays = nullptr;           // refracted rays: of the layer's alpha test and of blended materials
   PixelRaysFunction shown_rays = nullptr;     // refracted rays that the pixels show
@@ -73,6 +78,10 @@ struct MethodKernels {
   // One region's water pixels: HybridNarrowIn holds the inputs of every category, and the method's function receives
   // those of its own (refraction/data/category.h).
   void (*narrow)(const HybridNarrowIn&, const NarrowOut&, std::size_t region) = nullptr;
+  // The same of the reflected rays, by the planar reflection layer.
+  void (*planar)(const PlanarIn&, const NarrowOut&, std::size_t region) = nullptr;
+  // Are the second layers searched? null: no.
+  bool (*searches_behind)(const MethodState&) = nullptr;
   // The layer's front ends by a map of the method's own; null: by `map`.
   void (*refracted_front_end)(const LayerPassIn&, const BinsOut&, std::size_t work_item) = nullptr;
   void (*blended_front_end)(const BlendedPassIn&, const BinsOut&, std::size_t work_item) = nullptr;
@@ -85,7 +94,7 @@ struct MethodKernels {
 
 // Is the refracted layer of a body drawn?
 inline bool draws_refracted_layer(const MethodKernels& method, const WaterOptics& optics) {
-  return method.draws_layer && visibility_layer_valid(method.follows_waves, optics);
+  return method.draws_layer && (method.searches || visibility_layer_valid(method.follows_waves, optics));
 }
 
 struct Method {

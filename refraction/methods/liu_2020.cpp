@@ -33,6 +33,8 @@ struct Liu2020 : TrueRays {
   }
   static bool splits_edges(const MethodState& state) { return state.options_as<Options>().tessellate; }
 
+  static LayerPlace<WideF> planar_place(const SampleIn& in) { return plane_planar_place(in); }
+
   static LayerPlace<WideF> sample_place(const SampleIn& in) {
     if (in.options<Options>().as_printed) return printed_place(in);
     const Ray<WideF> ray{in.at.crossing_world, in.at.refracted};

@@ -13,13 +13,19 @@
 // continues, `crossing` its differential there (at_crossing). Optional members:
 //
 //   static void narrow(const NarrowIn<kCategory>&, const NarrowOut&, std::size_t region)
-//       finds the hits by itself; no refracted layer is drawn (distance_field.cpp)
+//       finds the hits by itself; no refracted layer is drawn (distance_field.cpp), but see kSearchesLayers
 //   static void prepare(const PrepareIn&, MethodState&)
 //       makes private data of the scene before the frames (distance_field.cpp)
 //   static PixelRays<WideF> shown_rays(const PixelRaysIn&)
 //       the rays that the pixels show, where they are not `rays` (block_grid.cpp)
 //   static constexpr bool kMisses = true;
 //       the method may find nothing where there is something
+//   static constexpr bool kSearchesLayers = true;
+//       its own narrow phase searches the layers (two_phase.cpp): they are drawn, under waves too
+//   static constexpr bool kWholeScene = true;
+//       its layer is the frame without its water (none.cpp), which is drawn once for the direct pass too
+//   static LayerSearch layer_search(const MethodState&)
+//       how the layers are searched, those of the planar reflection included
 //
 // Options are a plain struct and a table of its fields, given to ray_method (refraction/data/options.h).
 // RayMethodKernels<MyMethod>::kernels() makes the frame's kernels of it. Methods that fetch from a lit picture of the
@@ -29,6 +35,7 @@
 #include <concepts>
 
 #include "refraction/methods/kernels.h"
+#include "refraction/narrow/search_region.h"
 
 namespace shoal::inline SHOAL_ISA_NS {
 
@@ -87,6 +94,14 @@ concept HasShownRays = requires(const PixelRaysIn& in) {
 };
 template <class M>
 concept Misses = M::kMisses;
+template <class M>
+concept SearchesLayers = M::kSearchesLayers;
+template <class M>
+concept ShowsWholeScene = M::kWholeScene;
+template <class M>
+concept HasLayerSearch = requires(const MethodState& state) {
+  { M::layer_search(state) } -> std::same_as<LayerSearch>;
+};
 
 // The rays of a method in the form that stages call.
 template <class M>
@@ -118,19 +133,35 @@ struct RayMethodKernels {
     refracted_hits(in, M::kFollowsWaves, out.hits, region);
   }
 
+  // Reflected rays against the triangles of the planar reflection layer.
+  static void planar(const PlanarIn& in, const NarrowOut& out, std::size_t region) {
+    // What stands in front of a reflected hit is searched for by no method: it costs more than it shows.
+    LayerSearch how{.planes = 1, .way = 0, .neighbours = false, .behind = false, .beside_edges = false};
+    if constexpr (HasLayerSearch<M>) how = M::layer_search(in.state), how.way = 0, how.beside_edges = false;
+    search_reflected(in, in.own_rays, how, out.hits, region);
+  }
+  static bool searches_behind(const MethodState& state) requires HasLayerSearch<M> {
+    return M::layer_search(state).behind;
+  }
+
   static constexpr MethodKernels kernels() {
     MethodKernels k;
     k.map = &M::map;
+    k.traces = M::kCategory == MethodCategory::kHybrid;
+    k.planar = &planar;
     k.follows_waves = M::kFollowsWaves;
     k.misses = Misses<M>;
     k.rays = k.shown_rays = &rays_of_method<M>;
     if constexpr (HasShownRays<M>) k.shown_rays = &shown_rays;
     if constexpr (FindsHits<M>) {
-      k.draws_layer = false;
+      k.searches = SearchesLayers<M>;
+      k.whole_scene = ShowsWholeScene<M>;
+      k.draws_layer = k.searches || k.whole_scene;
       k.narrow = &narrow_of_method<M>;
     } else {
       k.narrow = &hybrid_narrow;
     }
+    if constexpr (HasLayerSearch<M>) k.searches_behind = &searches_behind;
     if constexpr (Prepares<M>) k.prepare = &M::prepare;
     return k;
   }

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "refraction/data/reflections.h"
+
 namespace shoal {
 
 // Registry of methods (refraction/methods/methods.def), in its order.
@@ -15,7 +17,8 @@ struct MethodOptionInfo {
 };
 struct MethodInfo {
   const char* name;
-  const char* category;  // raster, volume, hybrid, traced
+  const char* category;     // raster, volume, hybrid, traced
+  Reflections reflections;  // by default
   const char* description;
   const char* source;
   std::vector<MethodOptionInfo> options;

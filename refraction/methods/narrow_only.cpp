@@ -12,6 +12,8 @@ namespace {
 struct NarrowOnly : StraightRays {
   static constexpr bool kWholeScene = true;
 
+  static LayerPlace<WideF> planar_place(const SampleIn& in) { return plane_planar_place(in); }
+
   static LayerPlace<WideF> sample_place(const SampleIn& in) {
     const Ray<WideF> ray{in.at.crossing_world, in.at.refracted};
     return project_place(in.view(), ray.origin_world + ray.direction_world * plane_distance(in, ray));

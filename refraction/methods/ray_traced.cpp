@@ -42,6 +42,7 @@ Method ray_traced() {
   MethodKernels kernels;
   kernels.map = &flat_map;
   kernels.draws_layer = false;
+  kernels.traces = true;
   kernels.trace = &trace;
   return {"ray-traced",
           MethodCategory::kTraced,

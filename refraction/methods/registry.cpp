@@ -31,7 +31,12 @@ const std::vector<MethodInfo>& method_infos() {
     const KernelTable& table = kernel_table(best_isa());
     for (std::size_t i = 0; i < table.method_count; ++i) {
       const Method& method = table.methods[i];
-      list.push_back({method.name, category_name(method.category), method.description, method.source, {}});
+      list.push_back({method.name,
+                      category_name(method.category),
+                      default_reflections(method.category),
+                      method.description,
+                      method.source,
+                      {}});
       for (const MethodOption& option : method.options.fields)
         list.back().options.push_back(
             {option.key, option_text(option, option.default_value), option_range(option), option.meaning});

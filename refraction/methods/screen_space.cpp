@@ -27,7 +27,13 @@ constexpr MethodOption kOptions[] = {
 struct ScreenSpace : StraightRays {
   static constexpr bool kWholeScene = true;
 
-  static LayerPlace<WideF> sample_place(const SampleIn& in) {
+  static LayerPlace<WideF> sample_place(const SampleIn& in) { return marched_place(in, in.at.refracted); }
+  static LayerPlace<WideF> planar_place(const SampleIn& in) {
+    return marched_place(in, mirrored_direction(in, in.at.reflected));
+  }
+
+  //   direction  of the ray in the layer's space
+  static LayerPlace<WideF> marched_place(const SampleIn& in, const Vec3<WideF>& direction) {
     alignas(64) static constexpr float kBayer[16] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
     const Options& options = in.options<Options>();
     DepthMarch how;
@@ -36,7 +42,7 @@ struct ScreenSpace : StraightRays {
     how.max_steps = options.max_steps;
     const WideF jitter = WideF::load(kBayer) * WideF(options.jitter / 16.0f);
     const Vec3<WideF> from = in.at.crossing_world;
-    return march_depth(in, from, from + in.at.refracted * WideF(options.max_distance), jitter, how).place;
+    return march_depth(in, from, from + direction * WideF(options.max_distance), jitter, how).place;
   }
 };
 

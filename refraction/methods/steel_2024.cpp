@@ -41,6 +41,22 @@ struct Steel2024 : TrueRays {
   }
   static bool splits_edges(const MethodState& state) { return state.options_as<Options>().tessellate; }
 
+  // uw_dist_planar: the rest of the view ray beyond the surface, in the layer's space.
+  static WideF distance_beyond(const SampleIn& in) {
+    const LayerView& layer = in.narrow.layer;
+    const WideF drawn = WideF::load(layer.depth() + layer.grid().offset(in.block.x_px, in.block.y_px));
+    const WideM shows = in.lanes & (drawn > WideF(0.0f));
+    const WideF depth_m = view_depth_m(in.view(), select(shows, drawn, WideF(1.0f)));
+    const WideF beyond = max((depth_m - in.at.t) * length(in.view_ray.direction_world), WideF(0.0f));
+    return select(shows, beyond, WideF(kOpen_m));
+  }
+
+  // The same parallax in the mirrored scene, whose virtual space is its own.
+  static LayerPlace<WideF> planar_place(const SampleIn& in) {
+    const Vec3<WideF> direction = mirrored_direction(in, in.at.reflected);
+    return project_place(in.view(), in.at.crossing_world + direction * distance_beyond(in));
+  }
+
   static LayerPlace<WideF> sample_place(const SampleIn& in) {
     const Options& options = in.options<Options>();
     const Vec3<WideF> n = in.at.plane_normal;
@@ -51,14 +67,8 @@ struct Steel2024 : TrueRays {
     const Vec3<WideF> along = n * dot(in.at.refracted, n);
     const Vec3<WideF> virtual_direction = normalize(in.at.refracted - along + along * ratio);
 
-    // uw_dist_planar: the rest of the view ray, in virtual space.
-    const LayerView& layer = in.narrow.layer;
-    const WideF drawn = WideF::load(layer.depth() + layer.grid().offset(in.block.x_px, in.block.y_px));
-    const WideM shows = in.lanes & (drawn > WideF(0.0f));
-    const WideF depth_m = view_depth_m(in.view(), select(shows, drawn, WideF(1.0f)));
-    const WideF beyond = max((depth_m - in.at.t) * length(in.view_ray.direction_world), WideF(0.0f));
-    const WideF distance = select(shows, beyond, WideF(kOpen_m));
-    const LayerPlace<WideF> parallax = project_place(in.view(), in.at.crossing_world + virtual_direction * distance);
+    const LayerPlace<WideF> parallax =
+        project_place(in.view(), in.at.crossing_world + virtual_direction * distance_beyond(in));
     if (!options.pom) return parallax;
 
     DepthMarch how;

@@ -13,6 +13,7 @@ struct SampleIn {
   Ray<WideF> view_ray;
   const ExactRay<WideF>& at;  // where it crosses the surface, waves included
   WideM lanes;                // that sample: water, not totally reflecting
+  WideI& fetches;             // of each lane: added to
 
   const View& view() const { return narrow.view.view; }
   const WaterOptics& optics() const { return narrow.optics; }
@@ -21,6 +22,17 @@ struct SampleIn {
     return narrow.state.options_as<Options>();
   }
 };
+
+// The triangles that the layer shows at the pixels themselves.
+SHOAL_INLINE FetchedTriangle<WideF> own_triangles(const SampleIn& in) {
+  return in.narrow.layer.fetch<WideF>(LayerSlice::kNearest, WideI(in.block.x_px) + block_x(),
+                                      WideI(in.block.y_px) + block_y(), in.lanes, in.fetches);
+}
+
+// A direction above the plane as the planar reflection layer sees it: mirrored in the plane.
+SHOAL_INLINE Vec3<WideF> mirrored_direction(const SampleIn& in, const Vec3<WideF>& direction) {
+  return reflect(direction, in.at.plane_normal);
+}
 
 // The pixels' own places.
 SHOAL_INLINE LayerPlace<WideF> own_place(int x_px, int y_px) {

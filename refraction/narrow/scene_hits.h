@@ -15,7 +15,7 @@ inline bool visibility_layer_valid(bool bent, const WaterOptics& optics) {
   return !(bent && optics.surface() != nullptr);
 }
 
-// Inputs of the reflected rays' hits: a shared stage, the same for every method.
+// Inputs of the reflected rays' hits by the BVH: a shared stage, the same for every method.
 struct ReflectedHitsIn {
   const ViewState& view;
   const FrameGrids& grids;
@@ -29,9 +29,10 @@ struct ReflectedHitsIn {
   bool wants_positions;
 };
 
-// Is the planar reflection layer of a body drawn, and valid?
+// Is the planar reflection layer of a body drawn? Rays use it where it is valid.
 inline bool draws_reflected_layer(const WaterOptics& optics) {
-  return optics.reflects_scene && visibility_layer_valid(true, optics);
+  return optics.reflections == Reflections::kPlanar ||
+         (optics.reflections == Reflections::kTraced && visibility_layer_valid(true, optics));
 }
 
 }  // namespace shoal
@@ -42,7 +43,7 @@ namespace shoal::inline SHOAL_ISA_NS {
 //   bent  the rays follow the waves' normals
 void refracted_hits(const HybridNarrowIn& in, bool bent, HitBlock* hits, std::size_t region);
 
-// HitBlock::reflected_id; nothing where the surface does not reflect the scene.
+// HitBlock::reflected_id of a region's water pixels (Reflections::kTraced).
 void reflected_hits(const ReflectedHitsIn& in, HitBlock* hits, std::size_t region);
 
 }  // namespace shoal::inline SHOAL_ISA_NS

@@ -88,7 +88,6 @@ void refracted_hits(const HybridNarrowIn& in, bool bent, HitBlock* hits, std::si
 }
 
 void reflected_hits(const ReflectedHitsIn& in, HitBlock* hits, std::size_t region) {
-  if (!in.optics.reflects_scene) return;
   HitSearch search(in.scene, in.trace, in.grids, in.optics, in.reflected, region);
   for_each_block(in.grids.frame, region, [&](const Block& block) SHOAL_LAMBDA {
     const std::size_t at_block = block_in_region(block.x_px, block.y_px);

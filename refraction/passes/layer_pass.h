@@ -23,7 +23,7 @@ struct BlendedPassIn {
   const WaterPass* pass;  // null: the direct pass
   const std::vector<std::uint32_t>& meshlets;
   const BinGrid& regions;             // of the pass's grid
-  const std::uint8_t* region_active;  // [regions] 0: nothing is binned there; null: all are active
+  const std::int32_t* region_active;  // [regions] 0: nothing is binned there; null: all are active
   const MethodState& state;
 };
 

@@ -98,6 +98,23 @@ void light_layer(const LightLayerIn& in, LitLayer& out, std::size_t region) {
   for_each_block(in.grids.frame, region, [&](const Block& block) SHOAL_LAMBDA { light_block(in, out, block); });
 }
 
+void require_layer(const LazyLayer& layer, const FrameGrid& frame, const LayerPlace<WideF>& place, WideM lanes) {
+  // The texels around a place are those at it, rounded down, and the next ones.
+  const auto texels = [&](WideF at, int size) SHOAL_LAMBDA {
+    const WideF last(static_cast<float>(size - 1));
+    const WideF first = floor(clamp(at - WideF(0.5f), WideF(0.0f), last));
+    struct {
+      int first, last;
+    } range{static_cast<int>(reduce_min(select(lanes, first, last))),
+            static_cast<int>(reduce_max(select(lanes, min(first + WideF(1.0f), last), WideF(0.0f))))};
+    return range;
+  };
+  const auto x = texels(place.x_px, frame.width_px), y = texels(place.y_px, frame.height_px);
+  for (int ry = y.first / kRegionSize; ry <= y.last / kRegionSize; ++ry)
+    for (int rx = x.first / kRegionSize; rx <= x.last / kRegionSize; ++rx)
+      layer.require(static_cast<std::size_t>(ry * frame.regions_x + rx), &light_layer);
+}
+
 void fetch_layer(const FetchIn& in, const ExactRay<WideF>& at, LayerPlace<WideF> place, WideM lanes, HitBlock& hits,
                  FetchedBlock& out) {
   const FrameGrid& grid = in.grids.frame;
@@ -154,7 +171,7 @@ void fetch_layer(const FetchIn& in, const ExactRay<WideF>& at, LayerPlace<WideF>
   store_masked(hits.refracted_id, nearest_id, lanes);
   if (!in.view.capture) return;
   const WideM inside = (place.x_px >= zero) & (place.y_px >= zero) & (place.x_px <= width) & (place.y_px <= height);
-  store_masked(out.outside, select(inside, WideI(0), WideI(1)), lanes);
+  store_masked(out.approximate, select(inside, WideI(0), WideI(1)), lanes);
   const Vec3<WideF> shown = select<WideF>(one_drawable(in.scene.drawables, taps, lanes), mixed, nearest);
   store3(out.position_world, shown, lanes);
 }

@@ -28,6 +28,9 @@ struct HitRecorder {
   static void visible(const Path&, WideI, const WaterCrossing&, WideM, WideM) {}
   static void surface(const SurfaceSample<WideF>&, WideM) {}
   static void water(const ExactRay<WideF>&, WideM) {}
+  void secondary(WideM lanes) {
+    if (in.view.capture) store_plane(hits.secondary, offset, WideI(1), lanes);
+  }
   void shown(const Path& path, const Vec3<WideF>& position, WideI id, WideM lanes) {
     if (!in.view.capture) return;
     const Vec3<WideF> image =
@@ -50,7 +53,7 @@ void trace_secondary_interfaces(const SecondaryIn& in, const SecondaryOut& out, 
     const WideM refracted =
         in.refracted ? here & transmitted & (WideI::load(hits.refracted_id) < WideI(0)) : mask_from_bits(0);
     const WideM reflected =
-        in.optics.reflects_scene ? here & (WideI::load(hits.reflected_id) < WideI(0)) : mask_from_bits(0);
+        in.optics.reflects_scene() ? here & (WideI::load(hits.reflected_id) < WideI(0)) : mask_from_bits(0);
     if (none(refracted | reflected)) return;
 
     const ExactRay<WideF> at = load_interface(interface);

@@ -25,7 +25,7 @@ struct SecondaryIn {
   PixelRaysFunction rays;           // refracted, of the method
   PixelRaysFunction own_reflected;  // a method's own reflected rays, or null
   const void* options;
-  bool reflects_scene;  // --reflections
+  bool reflects_scene;  // --reflections: the paths' reflected rays hit the scene
 };
 struct SecondaryOut {
   SecondaryBlock* light;

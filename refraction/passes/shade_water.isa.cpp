@@ -58,9 +58,23 @@ struct WaterBlock {
       const Vec3<WideF> p = load3(fetched.position_world);
       store_hits(out.hits, block.offset, HitKind::kSurface, shown, p, virtual_position(in.optics.exact, p),
                  through & is_triangle(shown));
-      store_plane(out.hits.outside, block.offset, WideI::load(fetched.outside), through);
+      store_plane(out.hits.approximate, block.offset, WideI::load(fetched.approximate), through);
     }
     return select<WideF>(through, load3(fetched.radiance), broadcast<WideF>(Vec3f{0, 0, 0}));
+  }
+
+  // Turns rays towards points.
+  static void aim(Ray<WideF>& ray, const Vec3<WideF>& point, WideM lanes) {
+    const Vec3<WideF> way = point - ray.origin_world;
+    const WideM turned = lanes & (dot(way, way) > WideF(1e-12f));
+    const Vec3<WideF> direction = normalize(select<WideF>(turned, way, ray.direction_world));
+    ray.direction_world = select<WideF>(turned, direction, ray.direction_world);
+  }
+
+  // The captured pixels that show a candidate which their ray does not hit.
+  void mark_approximate(int lanes) const {
+    if (!in.view.capture || lanes == 0) return;
+    store_plane(out.hits.approximate, block.offset, WideI(1), mask_from_bits(static_cast<std::uint32_t>(lanes)));
   }
 
   // Radiance along the refracted rays, 0 where they cross a secondary interface.
@@ -71,6 +85,7 @@ struct WaterBlock {
       store_hits(out.hits, block.offset, HitKind::kMiss, WideI(kNoId), zero, zero, through & !is_triangle(shown));
     const WideM secondary = through & (shown < WideI(0));
     const PixelRays<WideF> rays = refracted_rays(in.rays, rays_in);
+    mark_approximate(hits.refracted_approximate & interface.transmitted);
     const Vec3<WideF> radiance =
         radiance_along(rays, shown, through & !secondary, !in.optics.exact.eye_below, HitKind::kSurface, at.transmitted,
                        [&](const Vec3<WideF>& p) SHOAL_LAMBDA { return virtual_position(in.optics.exact, p); });
@@ -86,14 +101,16 @@ struct WaterBlock {
     const auto filtered_background = [&]() SHOAL_LAMBDA {
       return interface_detail::get3(interface, InterfaceBlock::kBackground);
     };
-    if (!in.optics.reflects_scene) {
+    if (!in.optics.reflects_scene()) {
       if (filtered) return filtered_background();
       const PixelRays<WideF> rays = reflected_rays(in.own_reflected, rays_in, at);
       return background_radiance<WideF>(in.scene.background(), rays.ray.direction_world);
     }
     const WideI shown = WideI::load(hits.reflected_id);
     const WideM secondary = lanes & (shown < WideI(0));
-    const PixelRays<WideF> rays = reflected_rays(in.own_reflected, rays_in, at);
+    PixelRays<WideF> rays = reflected_rays(in.own_reflected, rays_in, at);
+    if (hits.reflected_aimed != 0) aim(rays.ray, load3(hits.reflected_position), mask_from_bits(hits.reflected_aimed));
+    mark_approximate(hits.reflected_approximate & ~interface.transmitted);
     Vec3<WideF> radiance = radiance_along(rays, shown, lanes & !secondary, eye_below, HitKind::kMirror, !at.transmitted,
                                           [](const Vec3<WideF>& p) SHOAL_LAMBDA { return p; });
     if (filtered && !eye_below) radiance = select<WideF>(lanes & !is_triangle(shown), filtered_background(), radiance);
@@ -112,7 +129,7 @@ struct WaterBlock {
     Vec3<WideF> above = reflected(at, lanes);
     if (in.blended_refracted != nullptr) {
       lay_over(*in.blended_refracted, block, through, below, nullptr);
-      if (in.optics.reflects_scene) lay_over(*in.blended_reflected, block, lanes, above, nullptr);
+      if (in.optics.reflects_scene()) lay_over(*in.blended_reflected, block, lanes, above, nullptr);
     }
     const SecondaryBlock& secondary = in.secondary[at_block];
     const Vec3<WideF> from_water = secondary.lanes != 0 ? load3(secondary.radiance) : broadcast<WideF>(Vec3f{0, 0, 0});

@@ -39,6 +39,14 @@ namespace shoal::inline SHOAL_ISA_NS {
 // Clears one tile and draws the bins into it.
 void draw_tile(const TilePassIn& in, VisibilityBuffer& out, std::size_t tile);
 
+// The bins over a tile that is drawn already.
+//   under  copied to `out`, of the same grid, before the bins are drawn
+void draw_tile_over(const TilePassIn& in, const VisibilityBuffer& under, VisibilityBuffer& out, std::size_t tile);
+
+// Bins into the second layer: `first` and `bins`.
+//   nearest  the tile as draw_tile left it
+void draw_tile_behind(const TilePassIn& in, const VisibilityBuffer& nearest, VisibilityBuffer& out, std::size_t tile);
+
 // Where straight view rays hit the triangle.
 std::uint32_t direct_alpha_test(const AlphaTestIn&, std::int32_t id, int x_px, int y_px, std::uint32_t cover);
 // Where the rays hit it that the method's pixels follow through flat water: the layer shows flat water's view of the

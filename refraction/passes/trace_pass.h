@@ -23,7 +23,7 @@ struct TraceIn {
   const FrameGrids& grids;
   const std::vector<WaterOptics>& water;
   const MethodState& state;
-  bool reflects_scene;  // --reflections
+  bool reflects_scene;  // --reflections: reflected rays hit the scene
   PostSettings post;
 };
 struct TraceOut {

@@ -58,6 +58,9 @@ struct BufferRecorder {
     store_water(out.gbuffer, out.hits, block.offset, at.crossing_world, at.normal,
                 roughness_of_waves(at.slope_variance), lanes);
   }
+  void secondary(WideM lanes) {
+    if (in.view.capture) store_plane(out.hits.secondary, block.offset, WideI(1), lanes);
+  }
   void shown(const Path& path, const Vec3<WideF>& position, WideI id, WideM lanes) {
     if (!in.view.capture) return;
     const BroadPhase& exact = in.water[static_cast<std::size_t>(path.first_body)].exact;

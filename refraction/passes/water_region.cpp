@@ -60,8 +60,8 @@ void place_water(const PlaceWaterIn& in, const PlaceWaterOut& out) {
     optics.map = in.map(displaced ? plane : body, in.view);
     optics.near_m = in.view.camera.near_m;
     optics.pixel = pixel_ray_differential<float>(in.view);
-    optics.reflects_scene =
-        in.reflects_scene || always_reflects_scene(optics.exact.eye_below, eye_side(optics.exact).eta);
+    const bool total = always_reflects_scene(optics.exact.eye_below, eye_side(optics.exact).eta);
+    optics.reflections = in.reflections == Reflections::kEnvironment && total ? in.total : in.reflections;
     optics.whole_scene = in.whole_scene;
     out.optics.push_back(optics);
     const bool in_water = eye.over_body && eye.above_m < 0.0f && eye.above_plane_m > -body.depth_m;
@@ -102,24 +102,36 @@ RegionBox mark_regions(const FrameGrid& frame, const std::vector<WaterCount>& co
   return box;
 }
 
-// Marks the layers' tiles that overlap a drawn region.
-void mark_tiles(const LayerGrid& layers, const std::vector<std::uint8_t>& region, std::vector<std::uint8_t>& active) {
-  const BinGrid& grid = layers.tiles;
-  const int nx = layers.grid.regions_x, ny = layers.grid.regions_y;
-  for (int ty = 0; ty < grid.tiles_y; ++ty)
-    for (int tx = 0; tx < grid.tiles_x; ++tx) {
-      const int rx0 = (tx << grid.tile_shift) / kRegionSize, ry0 = (ty << grid.tile_shift) / kRegionSize;
-      const int rx1 = std::min((((tx + 1) << grid.tile_shift) - 1) / kRegionSize, nx - 1);
-      const int ry1 = std::min((((ty + 1) << grid.tile_shift) - 1) / kRegionSize, ny - 1);
-      std::uint8_t any = 0;
-      for (int y = ry0; y <= ry1; ++y)
-        for (int x = rx0; x <= rx1; ++x)
-          any = static_cast<std::uint8_t>(any | region[static_cast<std::size_t>(y * nx + x)]);
-      active[static_cast<std::size_t>(ty * grid.tiles_x + tx)] = any;
+// Marks the layers' regions that a body's own regions and those around them are.
+RegionBox mark_layer(const FrameGrids& grids, const std::vector<std::uint8_t>& of_body, const RegionBox& box,
+                     int around, std::vector<std::int32_t>& layer) {
+  const LayerGrid& layers = grids.layers;
+  const int margin = layers.margin_px / kRegionSize, nx = layers.grid.regions_x, ny = layers.grid.regions_y;
+  std::fill(layer.begin(), layer.end(), 0);
+  for (int y = box.y0; y <= box.y1; ++y)
+    for (int x = box.x0; x <= box.x1; ++x) {
+      if (of_body[static_cast<std::size_t>(y * grids.frame.regions_x + x)] == 0) continue;
+      for (int j = std::max(y + margin - around, 0); j <= std::min(y + margin + around, ny - 1); ++j)
+        for (int i = std::max(x + margin - around, 0); i <= std::min(x + margin + around, nx - 1); ++i)
+          layer[static_cast<std::size_t>(j * nx + i)] = 1;
     }
+  return {std::max(box.x0 + margin - around, 0), std::max(box.y0 + margin - around, 0),
+          std::min(box.x1 + margin + around, nx - 1), std::min(box.y1 + margin + around, ny - 1)};
 }
 
 }  // namespace
+
+bool tile_overlaps(const LayerGrid& layers, const std::vector<std::int32_t>& regions, std::size_t tile) {
+  const BinGrid& grid = layers.tiles;
+  const int nx = layers.grid.regions_x, ny = layers.grid.regions_y;
+  const int tx = static_cast<int>(tile) % grid.tiles_x, ty = static_cast<int>(tile) / grid.tiles_x;
+  const int x1 = std::min((((tx + 1) << grid.tile_shift) - 1) / kRegionSize, nx - 1);
+  const int y1 = std::min((((ty + 1) << grid.tile_shift) - 1) / kRegionSize, ny - 1);
+  for (int y = (ty << grid.tile_shift) / kRegionSize; y <= y1; ++y)
+    for (int x = (tx << grid.tile_shift) / kRegionSize; x <= x1; ++x)
+      if (regions[static_cast<std::size_t>(y * nx + x)] != 0) return true;
+  return false;
+}
 
 std::uint64_t find_region(const FindRegionIn& in, const FindRegionOut& out) {
   std::uint64_t pixels = 0;
@@ -130,16 +142,13 @@ std::uint64_t find_region(const FindRegionIn& in, const FindRegionOut& out) {
   WaterRegions& regions = out.regions;
   RegionBox box = mark_regions(in.grids.frame, in.counts, regions.of_body);
   if (in.whole_layer) {
-    std::fill(regions.layer.begin(), regions.layer.end(), std::uint8_t{1});
+    std::fill(regions.layers.drawn.begin(), regions.layers.drawn.end(), 1);
     box = {0, 0, layers.grid.regions_x - 1, layers.grid.regions_y - 1};
   } else {
-    const int margin = layers.margin_px / kRegionSize;
-    std::fill(regions.layer.begin(), regions.layer.end(), std::uint8_t{0});
-    for (std::size_t r = 0; r < regions.of_body.size(); ++r)
-      regions.layer[layers.region(in.grids.frame, r)] = regions.of_body[r];
-    box = {box.x0 + margin, box.y0 + margin, box.x1 + margin, box.y1 + margin};
+    box = mark_layer(in.grids, regions.of_body, box, in.widened, regions.layers.drawn);
   }
-  mark_tiles(layers, regions.layer, regions.tile_active);
+  for (std::size_t tile = 0; tile < regions.tile_active.size(); ++tile)
+    regions.tile_active[tile] = tile_overlaps(layers, regions.layers.drawn, tile) ? 1 : 0;
 
   const int margin = layers.margin_px;
   const float shift = static_cast<float>(margin);
@@ -161,6 +170,17 @@ std::uint64_t find_region(const FindRegionIn& in, const FindRegionOut& out) {
   water.clip_plane = {map.far_normal, overlap_m(in.optics) - dot(map.far_normal, map.plane_origin)};
   if (in.optics.whole_scene) water.clip_plane.offset_m = kEverything_m;
   return pixels;
+}
+
+void find_behind_regions(const LayerGrid& layers, const std::vector<std::int32_t>& drawn, const EdgeMap& edges,
+                         std::vector<std::int32_t>& behind) {
+  constexpr int kReach_px = 32, kEnd_px = kRegionSize - 1 + kReach_px;
+  const int nx = layers.grid.regions_x;
+  for (std::size_t r = 0; r < drawn.size(); ++r) {
+    const int x = static_cast<int>(r) % nx * kRegionSize, y = static_cast<int>(r) / nx * kRegionSize;
+    const bool near = edges.any_within(x - kReach_px, y - kReach_px, x + kEnd_px, y + kEnd_px);
+    behind[r] = drawn[r] != 0 && near ? 1 : 0;
+  }
 }
 
 WaterPass reflected_pass(const WaterPass& refracted) {

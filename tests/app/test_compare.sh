@@ -8,12 +8,13 @@ json() { perl -MJSON::PP -e 'local $/; my $j = decode_json(<STDIN>); print eval(
 # --- One run: the files, the keys in their order, the numbers' kinds
 passes "compare" "$shoal" compare box -o out $small --methods none,hybrid --exr --yee --set ior=1.25
 equals "quiet where there is no terminal" "" "$(cat .out .err)"
-equals "its files" "metrics.json none.exr none.flip.png none.hit.png none.png reference.exr reference.png report.html \
-hybrid.exr hybrid.flip.png hybrid.hit.png hybrid.png" "$(ls out | paste -sd ' ')"
+equals "its files" "hybrid.exr hybrid.flip.png hybrid.hit.png hybrid.png metrics.json none.exr none.flip.png none.hit.png \
+none.png reference.exr reference.png report.html" "$(ls out | paste -sd ' ')"
 no_leftovers "compare"
 equals "metrics.json's keys" "scene size reference settings water_pixels methods" "$(keys_of out/metrics.json)"
 keys_in_order() { grep -oE "^$1\"[^\"]+\"" out/metrics.json | tr -d ' "' | paste -sd ' '; }
-method_keys="name ms water frame hit_error_px hit_error_m wrong_object wrong_surface spots"
+method_keys="name category ms water frame hit_error_px hit_error_m wrong_object wrong_surface secondary_share \
+wrong_object_primary wrong_surface_primary spots"
 equals "a method's keys" "$method_keys $method_keys" "$(keys_in_order '      ')"
 inner="median min n flip psnr_db yee_failed flip psnr_db yee_failed median p95 p99 median p95 p99"
 equals "the keys below" "$inner $inner" "$(keys_in_order '        ')"
@@ -23,6 +24,7 @@ equals "settings" "1.25 1 2 0 67.02" \
   "$(json 'join " ", map { $j->{settings}{$_} } qw(ior spp repeat warmup ppd)')"
 equals "the method is no setting of all" "" "$(json '$j->{settings}{method} // ""')"
 equals "as many times as were asked for" "2 2" "$(json 'join " ", map { $_->{ms}{n} } @{$j->{methods}}')"
+equals "the categories" "raster hybrid" "$(json 'join " ", map { $_->{category} } @{$j->{methods}}')"
 equals "the order asked for" "none hybrid" "$(json 'join " ", map { $_->{name} } @{$j->{methods}}')"
 equals "water_pixels is render's" "$("$shoal" render box --size 61x43 --json - | grep -oE '"water_pixels": [0-9]+' | cut -d' ' -f2)" \
   "$(json '$j->{water_pixels}')"
@@ -43,7 +45,7 @@ equals "where no refraction is worst" "x y size_px flip_max: yes" "$(grep -oE '^
   $_->{flip_max} < 0.1 || $_->{flip_max} > 1 || $_->{x} < 0 || $_->{x} > 60 || $_->{y} < 0 || $_->{y} > 42 } @$s) ? "yes" : "no"')"
 
 # --- The pictures are render's, the metrics are diff's
-"$shoal" render box -o one.png --size 61x43 --method none --set ior=1.25
+"$shoal" render box -o one.png --size 61x43 --method none --set ior=1.25 --reflections traced
 equals "render's picture, to the byte" "same" "$(cmp one.png out/none.png && echo same)"
 "$shoal" diff out/reference.png out/none.png --json diff.json >/dev/null
 equals "diff's FLIP" "$(json '$j->{flip}{mean}' diff.json)" "$(json '$j->{methods}[0]{frame}{flip}')"

@@ -9,7 +9,7 @@ sleep 1.1  # another second, should a date get in
 mkdir other
 passes "render it again" "$shoal" render box -o other/b.png $small --threads 1 --tile 32 --quiet
 equals "same bytes" "same" "$(cmp a.png other/b.png && echo same)"
-aovs=depth,normal,position,id.triangle,id.node,virtual,water.mask,surface.height,surface.normal,hit.kind,hit.position,hit.id,hit.outside
+aovs=depth,normal,position,id.triangle,id.node,virtual,water.mask,surface.height,surface.normal,hit.kind,hit.position,hit.id,hit.approximate,hit.secondary
 passes "render an EXR" "$shoal" render box -o a.exr $small --aov $aovs
 sleep 1.1
 passes "render it again" "$shoal" render box -o other/b.exr $small --aov $aovs --threads 2 --tile 128
@@ -60,7 +60,8 @@ hit.position.X float
 hit.position.Y float
 hit.position.Z float
 hit.id uint
-hit.outside uint
+hit.approximate uint
+hit.secondary uint
 END
 equals "EXR channels and types" "" "$(diff .wanted .channels)"
 "$shoal" render box -o plain.exr $small
@@ -86,7 +87,7 @@ for xy in "3 2" "57 5" "30 21" "8 40" "44 33"; do
   equals "$xy: hit.kind" "$(picture sample a.exr hit.kind "$1" "$2")" "$(uint_of hit.kind)"
 done
 equals "probe --pixel's keys" \
-  "pixel depth depth_hex normal normal_hex position position_hex id.triangle id.node virtual virtual_hex water.mask surface.height surface.height_hex surface.normal surface.normal_hex hit.kind hit.position hit.position_hex hit.id hit.outside lit lit_hex final" \
+  "pixel depth depth_hex normal normal_hex position position_hex id.triangle id.node virtual virtual_hex water.mask surface.height surface.height_hex surface.normal surface.normal_hex hit.kind hit.position hit.position_hex hit.id hit.approximate hit.secondary lit lit_hex final" \
   "$(keys_of .probe)"
 passes "probe --point" "$shoal" probe box --point 0.25,-0.5,0.125 --json .point
 equals "probe --point's keys" \
@@ -97,7 +98,7 @@ exits "probe --json -" 0 "$shoal" probe box $small --pixel 1,1 --json -
 equals "probe --json - is JSON alone" "{" "$(head -1 .out)"
 
 # --- render --json
-keys="scene method size triangles water_pixels threads tile isa spp settings version compiler load_ms build_ms write_ms stages_ms frame_ms frames_ms frame_digests peak_rss_mb"
+keys="scene method category size triangles water_pixels threads tile isa spp settings version compiler load_ms build_ms write_ms stages_ms frame_ms frames_ms frame_digests counters peak_rss_mb"
 passes "render --repeat --json" "$shoal" render box -o r.png $small --repeat 3 --warmup 1 --json r.json --threads 2 --tile 32 \
   --set ior=1.25 --exposure 0.5 --step 0.25
 equals "render --json's keys" "$keys" "$(keys_of r.json)"

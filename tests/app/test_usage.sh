@@ -61,7 +61,7 @@ r "--shadows 'dark': unknown; expected one of: off, map, rays" --shadows dark
 r "--shadows 'on': unknown; expected one of: off, map" --shadows on
 r "--shadow-map '1000': not a power of two; expected 256, 512, 1024, 2048, 4096 or 8192" --shadow-map 1000
 r "--shadow-map '16384'" --shadow-map 16384
-r "--reflections 'all': unknown; expected one of: environment, scene" --reflections all
+r "--reflections 'all': unknown; expected one of: environment, planar, traced" --reflections all
 r "--reflections 'none': unknown" --reflections none
 r "--tonemap 'filmic': unknown; expected one of: none, aces" --tonemap filmic
 r "--background" --background 1,2
@@ -88,6 +88,7 @@ r "--set octaves" --set octaves=1.5
 r "--set octaves" --set octaves=9
 r "--set fade 'steep': unknown" --set fade=steep
 r "unknown key" --set hybrid.nonsense=1
+r "--reflections 'scene': is now planar .* or traced .*; expected one of them" --reflections scene
 r "unknown" --set three-phase.x=1
 
 # --- Outputs

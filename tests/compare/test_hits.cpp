@@ -53,6 +53,7 @@ Frame make_frame() {
   frame.aovs.push_back({Aov::kHitKind, 1, {}, std::vector<std::uint32_t>(n, 0)});
   frame.aovs.push_back({Aov::kHitPosition, 3, std::vector<float>(3 * n, 0.0f), {}});
   frame.aovs.push_back({Aov::kHitId, 1, {}, std::vector<std::uint32_t>(n, kNoTriangle)});
+  frame.aovs.push_back({Aov::kHitSecondary, 1, {}, std::vector<std::uint32_t>(n, 0)});
   return frame;
 }
 
@@ -101,7 +102,13 @@ TEST_CASE("hits: objects, kinds and distances", "[hits]") {
   both(5, HitKind::kMirror, 0, HitKind::kMirror, 0, 0.5f);           // a mirrored point, half a metre off
   both(6, HitKind::kSky, kNoTriangle, HitKind::kSky, kNoTriangle, 1);  // the sky is the sky
   show(method, 7, HitKind::kSurface, p, 0);                            // no water in the reference: not counted
+  // Two of the seven cross a secondary interface in the reference: one that is wrong and one that is right.
+  truth.aovs[4].uints[3] = truth.aovs[4].uints[6] = 1;
+  method.aovs[4].uints[0] = 1;  // what the method crosses does not count
   const HitComparison c = compare_hits(make_scene(), looking_down(true), truth, method);
+  CHECK(c.secondary_share == Approx(2.0 / 7));
+  CHECK(c.wrong_object_primary == Approx(2.0 / 5));   // 1, 4
+  CHECK(c.wrong_surface_primary == Approx(3.0 / 5));  // 2, 4, 5
   CHECK(c.water_pixels == 7);
   CHECK(c.compared_pixels == 3);
   CHECK(c.wrong_object == Approx(3.0 / 7));   // 1, 3, 4

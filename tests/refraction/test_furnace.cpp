@@ -46,7 +46,7 @@ TEST_CASE("furnace: all is white", "[furnace]") {
     if (kind != SurfaceKind::kFlat) scene.waters[0].surface.slope = 0.15f;
     for (const MethodInfo& method : method_infos()) {
       for (const PlacedCamera& camera : scene.cameras) {
-        for (const Reflections reflections : {Reflections::kEnvironment, Reflections::kScene}) {
+        for (const Reflections reflections : {Reflections::kEnvironment, Reflections::kTraced}) {
           INFO(method.name << ", camera " << camera.name << ", surface " << static_cast<int>(kind) << ", reflections "
                            << static_cast<int>(reflections));
           const Darkest darkest = render_darkest(scene, camera, method.name, reflections);
@@ -64,6 +64,6 @@ TEST_CASE("furnace: water that absorbs is seen", "[furnace]") {
   for (const MethodInfo& method : method_infos())
     for (const PlacedCamera& camera : scene.cameras) {
       INFO(method.name << ", camera " << camera.name);
-      CHECK(render_darkest(scene, camera, method.name, Reflections::kScene).value < 250);
+      CHECK(render_darkest(scene, camera, method.name, Reflections::kTraced).value < 250);
     }
 }

@@ -293,13 +293,13 @@ TEST_CASE("ray-traced: rays are counted by kind", "[ray-traced]") {
                                       rays_of(f, "shadow")};
   };
   using Counts = std::vector<std::uint64_t>;
-  CHECK(count("1", Reflections::kScene, 1) == Counts{kPixels, 0, 0, 0});
+  CHECK(count("1", Reflections::kTraced, 1) == Counts{kPixels, 0, 0, 0});
   // Each point on the floor asks twice: up to the surface, and on in the air.
-  CHECK(count("2", Reflections::kScene, 1) == Counts{kPixels, kPixels, kPixels, 2 * kPixels});
+  CHECK(count("2", Reflections::kTraced, 1) == Counts{kPixels, kPixels, kPixels, 2 * kPixels});
   CHECK(count("2", Reflections::kEnvironment, 1) == Counts{kPixels, 0, kPixels, 2 * kPixels});
-  CHECK(count("8", Reflections::kScene, 4) == Counts{4 * kPixels, 4 * kPixels, 4 * kPixels, 8 * kPixels});
+  CHECK(count("8", Reflections::kTraced, 4) == Counts{4 * kPixels, 4 * kPixels, 4 * kPixels, 8 * kPixels});
   settings.digests = true;  // the sample that they are taken from is none of the picture's
-  CHECK(count("8", Reflections::kScene, 4) == Counts{4 * kPixels, 4 * kPixels, 4 * kPixels, 8 * kPixels});
+  CHECK(count("8", Reflections::kTraced, 4) == Counts{4 * kPixels, 4 * kPixels, 4 * kPixels, 8 * kPixels});
 }
 
 TEST_CASE("ray-traced: many layers of glass, in one plane and one-sided, as the rasterizer has them", "[ray-traced]") {

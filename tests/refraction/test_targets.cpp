@@ -4,10 +4,10 @@
 #include <set>
 #include <string>
 
+#include "oracle_scene.h"
 #include "raster/geometry_view.h"
 #include "refraction/methods/kernels.h"
 #include "refraction/passes/water_region.h"
-#include "oracle_scene.h"
 #include "refraction_oracle.h"
 
 using namespace shoal_test;
@@ -109,7 +109,7 @@ TEST_CASE("targets: the interface stage follows Snell's law at every water pixel
     t.scene.water = {&placed, 1};
     std::vector<WaterOptics> optics;
     place_water({t.scene.water, t.view.view, [](const WaterBody& b, const View& v) { return make_broad_phase(b, v); },
-                 true, false},
+                 Reflections::kTraced, Reflections::kTraced, false},
                 {optics, t.view.eye_in_water});
     REQUIRE(optics.size() == 1);
     REQUIRE(t.view.eye_in_water == -1);
@@ -155,10 +155,11 @@ TEST_CASE("targets: the interface stage follows Snell's law at every water pixel
 
 TEST_CASE("targets: the table allocates what the needs name, on its own grid, and no more") {
   const FrameGrids grids = make_frame_grids(200, 100, 32, kWaveMargin_px);
-  for (int bits = 0; bits < 32; ++bits) {
+  for (int bits = 0; bits < 64; ++bits) {
     TargetNeeds needs;
     needs.water = (bits & 1) != 0, needs.lit_layer = (bits & 2) != 0, needs.blended = (bits & 4) != 0;
     needs.capture = (bits & 8) != 0, needs.linear = (bits & 16) != 0;
+    needs.behind = (bits & 32) != 0;
     Targets t;
     allocate(t, grids, needs);
     const std::size_t frame = grids.frame.pixel_slots(), layers = grids.layers.grid.pixel_slots();
@@ -166,10 +167,13 @@ TEST_CASE("targets: the table allocates what the needs name, on its own grid, an
     CHECK(t.direct.id.size() == frame);
     CHECK(t.refracted.depth.size() == (needs.water ? layers : 0));
     CHECK(t.reflected.id.size() == (needs.water ? layers : 0));
-    CHECK(t.layer.radiance.x.size() == (needs.water && needs.lit_layer ? frame : 0));
+    CHECK(t.layer.radiance.x.size() == (needs.water && needs.lit_layer ? layers : 0));
     CHECK(t.interface.slope_variance.size() == (needs.water && needs.capture ? frame : 0));
     CHECK(t.gbuffer.roughness.size() == (needs.capture ? frame : 0));
-    CHECK(t.hits.outside.size() == (needs.capture ? frame : 0));
+    CHECK(t.refracted_behind.id.size() == (needs.water && needs.behind ? layers : 0));
+    CHECK(t.reflected_behind.depth.size() == (needs.water && needs.behind ? layers : 0));
+    CHECK(t.hits.secondary.size() == (needs.capture ? frame : 0));
+    CHECK(t.hits.approximate.size() == (needs.capture ? frame : 0));
     CHECK(t.water_light.radiance.z.size() == (needs.water ? frame : 0));
     CHECK(t.lit.alpha.size() == (needs.linear ? frame : 0));
     CHECK(t.blended_direct.filled.size() == (needs.blended ? grids.frame.block_count() : 0));

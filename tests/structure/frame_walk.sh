@@ -38,8 +38,12 @@ if ($frame =~ /kRegionStageNames\[[^]]*\] = \{([^}]*)\}/) {
   my $names = $1;
   $stages{$1} = 1 while $names =~ /"([^"]+)"/g;
 }
-$stages{$1} = $stages{$2} = 1 while $frame =~ /\{"([a-z_.]+)",\s*"([a-z_.]+)",\s*"visibility\./g;
-my %fields = map { $_ => 1 } qw(map rays shown_rays own_reflected lights_layer misses whole_scene);  # no stage
+while ($frame =~ /\{((?:"[a-z_.]+",\s*){4})"visibility\./g) {
+  my $names = $1;
+  $stages{$1} = 1 while $names =~ /"([a-z_.]+)"/g;
+}
+my %fields = map { $_ => 1 } qw(map rays shown_rays own_reflected lights_layer misses whole_scene traces searches
+                              searches_behind);  # no stage
 while ($frame =~ /\b(?:kernels|method)\.([a-z_]+)/g) { $kernels{$1} = 1 unless $fields{$1}; }
 $kernels{$1} = 1 while $frame =~ /(?<![\w.>])([a-z_]+)\(\{/g;  # stages that are no kernels
 complain("found only " . keys(%stages) . " stages and " . keys(%kernels) . " kernels in @frame")
